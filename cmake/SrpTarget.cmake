@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+# What every target of ours is compiled with.
+
+function(srp_target_options target)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla)
+  if(SRP_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(SRP_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${SRP_SANITIZE} -fno-omit-frame-pointer
+                                             -fno-sanitize-recover=all)
+    target_link_options(${target} PRIVATE -fsanitize=${SRP_SANITIZE})
+    # Run-time dispatch resolves before a sanitizer is up.
+    target_compile_definitions(${target} PRIVATE SRP_NO_TARGET_CLONES)
+  endif()
+  set_target_properties(${target} PROPERTIES C_VISIBILITY_PRESET hidden)
+endfunction()
