@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#define _GNU_SOURCE /* sched_getaffinity, strerror_r, newlocale, madvise */
+
+#include "platform.h"
+
+#include "error.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <locale.h>
+#include <sched.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+int srp_platform_processor_count(void) {
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) == 0) {
+        return CPU_COUNT(&set);
+    }
+    long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online > 0 ? (int)online : 1;
+}
+
+void *srp_platform_allocate_table(size_t size) {
+    const size_t line = 64, large = (size_t)1 << 21;
+    size_t alignment = size >= large ? large : line;
+    if (size > SIZE_MAX - alignment) {
+        return NULL;
+    }
+    size_t whole = (size + alignment - 1) / alignment * alignment;
+    void *memory = aligned_alloc(alignment, whole);
+    if (memory != NULL && alignment == large) {
+        (void)madvise(memory, whole, MADV_HUGEPAGE); /* a wish */
+    }
+    return memory;
+}
+
+srp_c_locale srp_platform_c_locale_enter(void) {
+    srp_c_locale state = {NULL, NULL};
+    locale_t ours = newlocale(LC_NUMERIC_MASK, "C", duplocale(uselocale((locale_t)0)));
+    if (ours != (locale_t)0) {
+        state.ours = (void *)ours;
+        state.previous = (void *)uselocale(ours);
+    }
+    return state;
+}
+
+void srp_platform_c_locale_leave(srp_c_locale state) {
+    if (state.ours != NULL) {
+        uselocale((locale_t)state.previous);
+        freelocale((locale_t)state.ours);
+    }
+}
+
+srp_status srp_platform_fail_errno(srp_error *error, const char *path, const char *what) {
+    int code = errno;
+    char text[128];
+    srp_status status = code == ENOENT ? SRP_NOT_FOUND : code == ENOMEM ? SRP_NO_MEMORY : SRP_IO;
+    return srp_fail_at(error, status, path, 0, 0, "cannot %s: %s", what,
+                       strerror_r(code, text, sizeof text));
+}
+
+/* One read(), tried again when a signal broke it off; *got is 0 at the end of the file. */
+static srp_status read_piece(int file, const char *path, char *buffer, size_t room, size_t *got,
+                             srp_error *error) {
+    ssize_t count;
+    do {
+        count = read(file, buffer, room);
+    } while (count < 0 && errno == EINTR);
+    if (count < 0) {
+        return srp_platform_fail_errno(error, path, "read");
+    }
+    *got = (size_t)count;
+    return SRP_OK;
+}
+
+/* Reads to the end of `file`, growing the buffer: pipes and /proc have no size to ask for. */
+static srp_status read_to_end(int file, const char *path, srp_platform_inspect inspect, void *user,
+                              char **text, size_t *size, srp_error *error) {
+    size_t capacity = 1 << 16, used = 0, got = 1;
+    char *buffer = malloc(capacity);
+    srp_status status = SRP_OK;
+    while (buffer != NULL && status == SRP_OK && got > 0) {
+        status = read_piece(file, path, buffer + used, capacity - used - 1, &got, error);
+        if (status == SRP_OK) {
+            status = inspect(user, buffer + used, got, error);
+            used += got;
+        }
+        if (status == SRP_OK && used + 1 == capacity) {
+            char *larger = capacity > SIZE_MAX / 2 ? NULL : realloc(buffer, capacity * 2);
+            if (larger == NULL) {
+                free(buffer);
+            }
+            buffer = larger;
+            capacity *= 2;
+        }
+    }
+    if (buffer == NULL) {
+        return srp_fail_at(error, SRP_NO_MEMORY, path, 0, 0, "no memory to read the file");
+    }
+    if (status != SRP_OK) {
+        free(buffer);
+        return status;
+    }
+    buffer[used] = '\0';
+    *text = buffer;
+    *size = used;
+    return SRP_OK;
+}
+
+srp_status srp_platform_read_file(const char *path, srp_platform_inspect inspect, void *user,
+                                  char **text, size_t *size, srp_error *error) {
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0) {
+        return srp_platform_fail_errno(error, path, "open");
+    }
+    struct stat about;
+    srp_status status;
+    if (fstat(file, &about) == 0 && S_ISDIR(about.st_mode)) {
+        status = srp_fail_at(error, SRP_IO, path, 0, 0, "is a directory, expected a file");
+    } else {
+        status = read_to_end(file, path, inspect, user, text, size, error);
+    }
+    close(file);
+    return status;
+}
+
+static srp_status fail_write(srp_error *error, const char *path) {
+    srp_status status = srp_platform_fail_errno(error, path, "write");
+    /* A directory that is missing is, for a writer, the refusal of the system. */
+    if (status == SRP_NOT_FOUND) {
+        status = SRP_IO;
+        if (error != NULL) {
+            error->status = status;
+        }
+    }
+    return status;
+}
+
+srp_status srp_platform_draft_begin(const char *target, srp_platform_draft *out, srp_error *error) {
+    /* A device or a pipe (/dev/stdout, /dev/full) cannot be renamed over: write it directly. */
+    struct stat about;
+    bool special = stat(target, &about) == 0 && !S_ISREG(about.st_mode);
+    if (special && S_ISDIR(about.st_mode)) {
+        return srp_fail_at(error, SRP_IO, target, 0, 0, "is a directory, expected a file");
+    }
+    size_t length = strlen(target);
+    srp_platform_draft draft = {malloc(length + 32), malloc(length + 1)};
+    if (draft.path == NULL || draft.target == NULL) {
+        free(draft.path);
+        free(draft.target);
+        return srp_fail_at(error, SRP_NO_MEMORY, target, 0, 0, "no memory");
+    }
+    memcpy(draft.target, target, length + 1);
+    if (special) {
+        memcpy(draft.path, target, length + 1);
+    } else {
+        snprintf(draft.path, length + 32, "%s.%ld.tmp", target, (long)getpid());
+        int file = open(draft.path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        if (file < 0) {
+            srp_status status = fail_write(error, target);
+            free(draft.path);
+            free(draft.target);
+            return status;
+        }
+        close(file);
+    }
+    *out = draft;
+    return SRP_OK;
+}
+
+static void draft_free(srp_platform_draft *draft) {
+    free(draft->path);
+    free(draft->target);
+    draft->path = NULL;
+    draft->target = NULL;
+}
+
+srp_status srp_platform_draft_commit(srp_platform_draft *draft, srp_error *error) {
+    if (strcmp(draft->path, draft->target) == 0) {
+        draft_free(draft);
+        return SRP_OK;
+    }
+    srp_status status = SRP_OK;
+    int file = open(draft->path, O_WRONLY | O_CLOEXEC);
+    if (file < 0 || fsync(file) != 0) {
+        status = srp_platform_fail_errno(error, draft->target, "write");
+    }
+    if (file >= 0) {
+        close(file);
+    }
+    if (status == SRP_OK && rename(draft->path, draft->target) != 0) {
+        status = srp_platform_fail_errno(error, draft->target, "replace");
+    }
+    if (status != SRP_OK) {
+        unlink(draft->path);
+    }
+    draft_free(draft);
+    return status;
+}
+
+void srp_platform_draft_abandon(srp_platform_draft *draft) {
+    if (draft->path != NULL && strcmp(draft->path, draft->target) != 0) {
+        unlink(draft->path);
+    }
+    draft_free(draft);
+}
+
+/* Adds bytes to the end of a draft. */
+static srp_status draft_append(const srp_platform_draft *draft, const char *bytes, size_t size,
+                               srp_error *error) {
+    int file = open(draft->path, O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (file < 0) {
+        return fail_write(error, draft->target);
+    }
+    srp_status status = SRP_OK;
+    for (size_t done = 0; status == SRP_OK && done < size;) {
+        ssize_t put = write(file, bytes + done, size - done);
+        if (put >= 0) {
+            done += (size_t)put;
+        } else if (errno != EINTR) {
+            status = fail_write(error, draft->target);
+        }
+    }
+    /* Some file systems tell of a full disk only here. */
+    if (close(file) != 0 && status == SRP_OK) {
+        status = fail_write(error, draft->target);
+    }
+    return status;
+}
+
+srp_status srp_platform_write_file(const char *path, const char *bytes, size_t size,
+                                   srp_error *error) {
+    srp_platform_draft draft;
+    srp_status status = srp_platform_draft_begin(path, &draft, error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    status = draft_append(&draft, bytes, size, error);
+    if (status != SRP_OK) {
+        srp_platform_draft_abandon(&draft);
+        return status;
+    }
+    return srp_platform_draft_commit(&draft, error);
+}
