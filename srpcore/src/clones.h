@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Functions compiled several times for wider vector units, the best chosen when the program is
+ * loaded. With -ffp-contract=off and no reordering of sums every clone gives the same bits.
+ * SRP_NO_TARGET_CLONES turns it off (sanitizers need that). Internal.
+ */
+#ifndef SRP_SRC_CLONES_H
+#define SRP_SRC_CLONES_H
+
+#if !defined(SRP_NO_TARGET_CLONES) && defined(__x86_64__) && defined(__gnu_linux__) &&             \
+    defined(__GNUC__) && !defined(__clang__)
+#define SRP_TARGET_CLONES __attribute__((target_clones("default", "avx2", "avx512f")))
+#else
+#define SRP_TARGET_CLONES
+#endif
+
+/* A part of such functions: inlined, or else it would be compiled for the plainest processor. */
+#if defined(__GNUC__)
+#define SRP_CLONE_PART static inline __attribute__((always_inline))
+#else
+#define SRP_CLONE_PART static inline
+#endif
+
+#endif
