@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Formulas: docs/theory.md. AAS 20-481, Eq. 8 and Algorithm 2 with the departures named there. */
+#include "bounce.h"
+
+#include "seed.h"
+#include "sight.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Rays of a wave over all its bounces, unless one sample alone has more. */
+enum { WAVE_RAYS = 8192 };
+
+struct srp_bounce_path {
+    double flux;  /* carried [m^2] */
+    int32_t i, j; /* the sample it comes from */
+    uint32_t ray; /* number among those of the sample's first hit */
+    srp_bounce_kind kind;
+};
+
+/* Light that reaches a facet. */
+typedef struct arrival {
+    const srp_bounce_path *path;
+    uint32_t bounces; /* behind it */
+    uint32_t facet;
+    bool back;
+    srp_vec3 point, direction;
+    srp_vec3 normal; /* turned to it */
+    srp_optics optics;
+} arrival;
+
+/* ---- points ---- */
+
+/*
+ * Kronecker points: coordinate = shift + i a + j b + ray c modulo 1, in units of 2^-64. With the
+ * place (i, j) itself those of the first bounce make a lattice of four dimensions; a and b were
+ * searched so that its shortest vector is long (0.954 of the fourth root of the volume per point
+ * at least) for 4 to 512 points along a side. c: the plastic number's, which spread any number of
+ * rays over the square (Roberts' R2 sequence). Later bounces matter less and take odd numbers as
+ * they come.
+ */
+static const uint64_t FIRST[2][3] = {
+    {0xb478b050479a1001u, 0xb2eefcc074483801u, 0xc13fa9a902a63001u},
+    {0xb2f8e8cd07f9f001u, 0x494eb4d3238ac001u, 0x91e10da5c79e7801u},
+};
+
+typedef enum coordinate { ACROSS, AROUND, CHOICE, COORDINATES } coordinate;
+
+static int group_of(int32_t i, int32_t j) {
+    return (j % SRP_BOUNCE_STEP) * SRP_BOUNCE_STEP + i % SRP_BOUNCE_STEP;
+}
+
+/* In [0, 1). */
+static double coordinate_of(const srp_bounce_wave *wave, const srp_bounce_path *path,
+                            uint32_t bounces, coordinate which) {
+    uint64_t dimension = (uint64_t)bounces * COORDINATES + (uint64_t)which;
+    uint64_t group = (uint64_t)group_of(path->i, path->j);
+    uint64_t at = srp_seed_mix(srp_seed_mix(wave->seed, group), dimension);
+    const uint64_t index[3] = {(uint64_t)(path->i / SRP_BOUNCE_STEP),
+                               (uint64_t)(path->j / SRP_BOUNCE_STEP), path->ray};
+    for (uint64_t k = 0; k < 3; ++k) {
+        uint64_t step = bounces == 0 ? FIRST[which][k] : srp_seed_mix(k, dimension) | 1u;
+        at += index[k] * step;
+    }
+    return srp_seed_unit(at);
+}
+
+/* ---- directions ---- */
+
+static srp_vec3 mirrored(srp_vec3 direction, srp_vec3 normal) {
+    return srp_vec3_add_scaled(direction, -2.0 * srp_vec3_dot(direction, normal), normal);
+}
+
+/* ---- what a facet does to light ---- */
+
+static bool absorbs(const srp_scene *scene, uint32_t facet, bool back) {
+    return back && scene->optics[scene->facets[facet].material].one_sided;
+}
+
+static arrival arrive(const srp_scene *scene, const srp_bounce_path *path, uint32_t bounces,
+                      uint32_t facet, bool back) {
+    static const srp_optics BLACK = {0.0, 0.0, false};
+    arrival at;
+    memset(&at, 0, sizeof at);
+    at.path = path;
+    at.bounces = bounces;
+    at.facet = facet;
+    at.back = back;
+    at.normal = srp_vec3_scale(back ? -1.0 : 1.0, scene->facets[facet].normal);
+    at.optics = absorbs(scene, facet, back) ? BLACK : scene->optics[scene->facets[facet].material];
+    return at;
+}
+
+/* Push of a bundle on the facet that it hits (docs/theory.md, "Reflected light"). */
+static srp_vec3 push_of(const arrival *at) {
+    double facing = fabs(srp_vec3_dot(at->normal, at->direction));
+    double inwards = 2.0 * (at->optics.rho_s * facing + at->optics.rho_d / 3.0);
+    srp_vec3 push = srp_vec3_scale(1.0 - at->optics.rho_s, at->direction);
+    return srp_vec3_scale(at->path->flux, srp_vec3_add_scaled(push, -inwards, at->normal));
+}
+
+static void tell(const srp_bounce_wave *wave, srp_bounce_step step, const arrival *at, double flux,
+                 srp_vec3 direction, srp_vec3 push) {
+    if (wave->world->watch != NULL) {
+        srp_bounce_event event = {step, at->facet, at->back, flux, direction, push};
+        wave->world->watch(wave->world->user, &event);
+    }
+}
+
+static void tell_loss(const srp_bounce_wave *wave, srp_bounce_step step, const arrival *at) {
+    const srp_vec3 none = {0.0, 0.0, 0.0};
+    tell(wave, step, at, at->path->flux * at->optics.rho_s, mirrored(at->direction, at->normal),
+         none);
+}
+
+static bool is_blind(const srp_bounce_world *world, uint32_t facet, bool back) {
+    return (world->sight[facet] & (back ? SRP_SIGHT_BACK : SRP_SIGHT_FRONT)) == 0;
+}
+
+/* The share of what reaches a facet that is followed from it. */
+static double followed_share(const srp_bounce_world *world, srp_optics optics) {
+    return optics.rho_s + (world->diffuse > 0 ? optics.rho_d : 0.0);
+}
+
+bool srp_bounce_starts(const srp_bounce_world *world, uint32_t facet, bool back) {
+    srp_optics optics = world->scene->optics[world->scene->facets[facet].material];
+    return !is_blind(world, facet, back) && !absorbs(world->scene, facet, back) &&
+           followed_share(world, optics) > 0.0;
+}
+
+static void add_ray(srp_bounce_wave *wave, const arrival *at, srp_vec3 direction, double share,
+                    srp_bounce_kind kind, uint32_t ray) {
+    size_t n = wave->next_count++;
+    wave->next_rays[n] = (srp_ray){at->point, direction, at->facet};
+    wave->next_paths[n] = *at->path;
+    wave->next_paths[n].flux *= share;
+    wave->next_paths[n].kind = kind;
+    wave->next_paths[n].ray = ray;
+}
+
+static void add_scattered(srp_bounce_wave *wave, const arrival *at, double share, uint32_t ray) {
+    srp_bounce_path path = *at->path;
+    path.ray = ray;
+    double across = coordinate_of(wave, &path, at->bounces, ACROSS);
+    double around = coordinate_of(wave, &path, at->bounces, AROUND);
+    double weight = srp_guide_point(wave->world->guide, at->facet, at->back, &across, &around);
+    add_ray(wave, at, srp_guide_direction(at->normal, across, around), share * weight,
+            SRP_BOUNCE_DIFFUSE, ray);
+}
+
+/* All that light does that has met mirrors only. */
+static void split(srp_bounce_wave *wave, const arrival *at) {
+    if (at->optics.rho_s > 0.0) {
+        add_ray(wave, at, mirrored(at->direction, at->normal), at->optics.rho_s,
+                SRP_BOUNCE_SPECULAR, at->path->ray);
+    }
+    uint32_t diffuse = wave->world->diffuse;
+    if (diffuse == 0 || at->optics.rho_d == 0.0) {
+        return;
+    }
+    if (at->bounces > 0) {
+        add_scattered(wave, at, at->optics.rho_d, at->path->ray);
+        return;
+    }
+    for (uint32_t k = 0; k < diffuse; ++k) {
+        add_scattered(wave, at, at->optics.rho_d / diffuse, k);
+    }
+}
+
+/* One of the things that it does, with the flux of all. */
+static void choose(srp_bounce_wave *wave, const arrival *at) {
+    double share = at->optics.rho_s + at->optics.rho_d;
+    if (coordinate_of(wave, at->path, at->bounces, CHOICE) * share < at->optics.rho_s) {
+        add_ray(wave, at, mirrored(at->direction, at->normal), share, SRP_BOUNCE_DIFFUSE,
+                at->path->ray);
+    } else {
+        add_scattered(wave, at, share, at->path->ray);
+    }
+}
+
+static void reflect(srp_bounce_wave *wave, const arrival *at) {
+    const srp_bounce_world *world = wave->world;
+    double share = followed_share(world, at->optics);
+    if (share == 0.0) {
+        return;
+    }
+    if (is_blind(world, at->facet, at->back)) {
+        tell_loss(wave, SRP_BOUNCE_ESCAPES, at);
+    } else if (at->bounces == world->reflections) {
+        wave->sums->unresolved += at->path->flux * share;
+        tell_loss(wave, SRP_BOUNCE_IS_CUT, at);
+    } else if (at->path->kind == SRP_BOUNCE_SPECULAR) {
+        split(wave, at);
+    } else {
+        choose(wave, at);
+    }
+}
+
+/* ---- waves ---- */
+
+void srp_bounce_wave_clear(srp_bounce_wave *wave) {
+    free(wave->rays);
+    free(wave->next_rays);
+    free(wave->paths);
+    free(wave->next_paths);
+    free(wave->hits);
+    memset(wave, 0, sizeof *wave);
+}
+
+static bool reserve(srp_bounce_wave *wave, size_t capacity) {
+    if (capacity <= wave->capacity) {
+        return true;
+    }
+    srp_bounce_wave_clear(wave);
+    wave->rays = malloc(capacity * sizeof *wave->rays);
+    wave->next_rays = malloc(capacity * sizeof *wave->next_rays);
+    wave->paths = malloc(capacity * sizeof *wave->paths);
+    wave->next_paths = malloc(capacity * sizeof *wave->next_paths);
+    wave->hits = malloc(capacity * sizeof *wave->hits);
+    if (wave->rays == NULL || wave->next_rays == NULL || wave->paths == NULL ||
+        wave->next_paths == NULL || wave->hits == NULL) {
+        srp_bounce_wave_clear(wave);
+        return false;
+    }
+    wave->capacity = capacity;
+    return true;
+}
+
+bool srp_bounce_wave_begin(srp_bounce_wave *wave, const srp_bounce_world *world, uint64_t seed,
+                           srp_bounce_sums *sums) {
+    /* A hit adds at most this many rays; from then on a specular one adds one more per bounce. */
+    size_t fan = 1 + (size_t)world->diffuse;
+    size_t bounces = world->diffuse > 0 && world->reflections > 1 ? world->reflections : 1;
+    size_t limit = WAVE_RAYS / bounces > fan ? WAVE_RAYS / bounces : fan;
+    if (!reserve(wave, limit * bounces)) {
+        return false;
+    }
+    wave->world = world;
+    wave->sums = sums;
+    wave->seed = seed;
+    wave->start_limit = limit;
+    wave->count = wave->next_count = 0;
+    return true;
+}
+
+static void swap_waves(srp_bounce_wave *wave) {
+    srp_ray *rays = wave->rays;
+    srp_bounce_path *paths = wave->paths;
+    wave->rays = wave->next_rays;
+    wave->paths = wave->next_paths;
+    wave->next_rays = rays;
+    wave->next_paths = paths;
+    wave->count = wave->next_count;
+    wave->next_count = 0;
+}
+
+/* What the end of ray n does. */
+static void land(srp_bounce_wave *wave, size_t n, uint32_t bounces) {
+    const srp_ray *ray = &wave->rays[n];
+    const srp_hit *hit = &wave->hits[n];
+    const srp_bounce_path *path = &wave->paths[n];
+    if (hit->facet == SRP_NO_NEIGHBOUR) {
+        arrival from = arrive(wave->world->scene, path, bounces, ray->from, false);
+        tell(wave, SRP_BOUNCE_ESCAPES, &from, path->flux, ray->direction,
+             srp_vec3_make(0.0, 0.0, 0.0));
+        return;
+    }
+    arrival at = arrive(wave->world->scene, path, bounces, hit->facet, hit->back);
+    at.direction = ray->direction;
+    at.point = srp_vec3_add_scaled(ray->origin, hit->t, ray->direction);
+    srp_vec3 push = push_of(&at);
+    srp_bounce_sum *sum = &wave->sums->group[group_of(path->i, path->j)][path->kind];
+    srp_vec3 lever = srp_vec3_sub(at.point, wave->world->reference);
+    sum->f = srp_vec3_add(sum->f, push);
+    sum->t = srp_vec3_add(sum->t, srp_vec3_cross(lever, push));
+    tell(wave, SRP_BOUNCE_HITS, &at, path->flux, ray->direction, push);
+    reflect(wave, &at);
+}
+
+void srp_bounce_wave_finish(srp_bounce_wave *wave) {
+    swap_waves(wave);
+    for (uint32_t bounces = 1; wave->count > 0; ++bounces) {
+        srp_bvh_hit_many(wave->world->bvh, wave->count, wave->rays, wave->hits);
+        wave->sums->rays += wave->count;
+        for (size_t n = 0; n < wave->count; ++n) {
+            land(wave, n, bounces);
+        }
+        swap_waves(wave);
+    }
+}
+
+void srp_bounce_wave_start(srp_bounce_wave *wave, const srp_bounce_start *start) {
+    if (wave->next_count + 1 + wave->world->diffuse > wave->start_limit) {
+        srp_bounce_wave_finish(wave);
+    }
+    srp_bounce_path path = {start->flux, start->i, start->j, 0, SRP_BOUNCE_SPECULAR};
+    arrival at = arrive(wave->world->scene, &path, 0, start->facet, start->back);
+    at.point = start->point;
+    at.direction = start->direction;
+    tell(wave, SRP_BOUNCE_STARTS, &at, path.flux, at.direction, srp_vec3_make(0.0, 0.0, 0.0));
+    reflect(wave, &at);
+}
+
+/* ---- sums ---- */
+
+static void add_sum(srp_bounce_sum *into, const srp_bounce_sum *from) {
+    into->f = srp_vec3_add(into->f, from->f);
+    into->t = srp_vec3_add(into->t, from->t);
+}
+
+void srp_bounce_sums_add(srp_bounce_sums *into, const srp_bounce_sums *from) {
+    for (int g = 0; g < SRP_BOUNCE_GROUPS; ++g) {
+        for (int k = 0; k < SRP_BOUNCE_KINDS; ++k) {
+            add_sum(&into->group[g][k], &from->group[g][k]);
+        }
+    }
+    into->unresolved += from->unresolved;
+    into->rays += from->rays;
+}
+
+static srp_bounce_sum total_of(const srp_bounce_sums *sums, int kind) {
+    srp_bounce_sum total;
+    memset(&total, 0, sizeof total);
+    for (int g = 0; g < SRP_BOUNCE_GROUPS; ++g) {
+        add_sum(&total, &sums->group[g][kind]);
+    }
+    return total;
+}
+
+srp_bounce_sum srp_bounce_sums_total(const srp_bounce_sums *sums) {
+    srp_bounce_sum total = total_of(sums, SRP_BOUNCE_SPECULAR);
+    srp_bounce_sum diffuse = total_of(sums, SRP_BOUNCE_DIFFUSE);
+    add_sum(&total, &diffuse);
+    return total;
+}
+
+/* Variances of f and t. */
+typedef struct variance {
+    double f, t;
+} variance;
+
+/* Adds the squared distance of `count` times a sum from the total, `weight` times. */
+static void add_deviation(variance *into, double weight, double count, const srp_bounce_sum *sum,
+                          const srp_bounce_sum *total) {
+    srp_vec3 f = srp_vec3_sub(srp_vec3_scale(count, sum->f), total->f);
+    srp_vec3 t = srp_vec3_sub(srp_vec3_scale(count, sum->t), total->t);
+    into->f += weight * srp_vec3_dot(f, f);
+    into->t += weight * srp_vec3_dot(t, t);
+}
+
+/* The groups as independent replicates: the variance of the sum of n of them is n / (n - 1) times
+ * their summed squared distances from the mean. */
+static void add_scatter(const srp_bounce_sums *sums, int kind, variance *into) {
+    const double n = SRP_BOUNCE_GROUPS;
+    srp_bounce_sum total = total_of(sums, kind);
+    for (int g = 0; g < SRP_BOUNCE_GROUPS; ++g) {
+        add_deviation(into, 1.0 / (n * (n - 1.0)), n, &sums->group[g][kind], &total);
+    }
+}
+
+/* Weights of the scatter of lattices of two and four times the pitch in the variance of this one:
+ * those of variation.c, for the same reason. */
+static const double WEIGHT_2 = 1.0 / 9.0;
+static const double WEIGHT_4 = 1.0 / 81.0;
+
+/* Light that has met mirrors only errs as first hits do: by where edges run through cells. The
+ * groups are then lattices of four times the pitch, by fours of twice the pitch. */
+static void add_coarseness(const srp_bounce_sums *sums, int kind, variance *into) {
+    const double n = SRP_BOUNCE_GROUPS;
+    srp_bounce_sum total = total_of(sums, kind);
+    srp_bounce_sum four[4];
+    memset(four, 0, sizeof four);
+    for (int g = 0; g < SRP_BOUNCE_GROUPS; ++g) {
+        int i = g % SRP_BOUNCE_STEP, j = g / SRP_BOUNCE_STEP;
+        add_deviation(into, WEIGHT_4 / n, n, &sums->group[g][kind], &total);
+        add_sum(&four[(j % 2) * 2 + i % 2], &sums->group[g][kind]);
+    }
+    for (int q = 0; q < 4; ++q) {
+        add_deviation(into, WEIGHT_2 / 4.0, 4.0, &four[q], &total);
+    }
+}
+
+void srp_bounce_sums_error(const srp_bounce_sums *sums, bool turned, double *f_error,
+                           double *t_error) {
+    variance sum = {0.0, 0.0};
+    if (turned) {
+        add_coarseness(sums, SRP_BOUNCE_SPECULAR, &sum);
+    } else {
+        add_scatter(sums, SRP_BOUNCE_SPECULAR, &sum);
+    }
+    add_scatter(sums, SRP_BOUNCE_DIFFUSE, &sum);
+    *f_error = sqrt(sum.f);
+    *t_error = sqrt(sum.t);
+}
