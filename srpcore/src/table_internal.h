@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the inside of a table looks like to the file formats. Internal. */
+#ifndef SRP_SRC_TABLE_INTERNAL_H
+#define SRP_SRC_TABLE_INTERNAL_H
+
+#include <srp/table.h>
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Largest grid: steps of 0.01 degrees. */
+enum { SRP_GRID_AZ_MAX = 36001, SRP_GRID_EL_MAX = 18001 };
+
+struct srp_table {
+    srp_grid grid;
+    srp_table_info info; /* strings set by srp_table_set_text() */
+    bool has_lattice;    /* info.params.lattice, seed and tolerance decide the numbers */
+    size_t material_count;
+    char **material_names;
+    srp_optics *material_optics;
+    /* (az_count, el_count), elevation fastest. Responses of empty nodes are zero. */
+    srp_response *nodes;
+    srp_basis *basis; /* (az_count, el_count, material_count + 1), NULL when not kept */
+    unsigned char *filled;
+    size_t filled_count;
+};
+
+/* Index of node (i, j) in nodes and filled. */
+static inline size_t srp_table_index(const srp_table *table, uint32_t i, uint32_t j) {
+    return (size_t)i * table->grid.el_count + j;
+}
+
+/* An empty table that says nothing of its origin; the names of its materials are NULL until they
+ * are set by srp_table_set_material(). SRP_BAD_ARGUMENT (grid), SRP_NO_MEMORY. */
+srp_status srp_table_create_blank(srp_grid grid, size_t material_count, bool with_basis,
+                                  srp_table **out, srp_error *error);
+
+/* Sets a string of table->info, e.g. &table->info.title, to a copy of `size` bytes of `text`.
+ * SRP_NO_MEMORY. */
+srp_status srp_table_set_text(const char **slot, const char *text, size_t size, srp_error *error);
+srp_status srp_table_set_material(srp_table *table, size_t index, const char *name, size_t size,
+                                  srp_optics optics, srp_error *error);
+
+/* SRP_BAD_ARGUMENT unless flux and au are above 0, and mass above 0 or NAN (not given). */
+srp_status srp_table_check_light(srp_sunlight light, double mass, srp_error *error);
+
+/* Marks a node, whose response is in place, as there. */
+void srp_table_mark_filled(srp_table *table, size_t index);
+
+/* Checksum (XXH3, 128 bits, 32 hexadecimal digits) of everything that a table holds, independent of
+ * how and where it is stored. */
+void srp_table_checksum(const srp_table *table, char out[33]);
+/* The same of bytes. */
+void srp_bytes_checksum(const void *bytes, size_t size, char out[33]);
+
+#endif

@@ -1,0 +1,550 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Tables as SPAD files (.spo), which GMAT and STK read. What GMAT's reader asks for is written down
+ * in docs/file-formats.md. The force has the sign of our f: the Sun on +X pushes towards -X.
+ *
+ * The eleventh column, from the centre of pressure to the centre of mass, is the distance between
+ * the reference point and the line along which the force acts, |f x t| / f.f.
+ */
+#include "error.h"
+#include "platform.h"
+#include "table_text.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Writing -------------------------------------------------------------------------------- */
+
+/* `text` as a value that GMAT takes: no colon, nothing that does not print, not empty. */
+static void print_value(srp_sheet *sheet, const char *key, const char *text) {
+    char value[256];
+    size_t size = 0;
+    for (; *text != '\0' && size < sizeof value - 1; ++text) {
+        unsigned char byte = (unsigned char)*text;
+        value[size++] = byte == ':' || byte < ' ' || byte == 127 ? ' ' : *text;
+    }
+    while (size > 0 && value[size - 1] == ' ') {
+        size--;
+    }
+    value[size] = '\0';
+    srp_sheet_print(sheet, "%-18s : %s\n", key, value[strspn(value, " ")] == '\0' ? "-" : value);
+}
+
+static void print_motion(srp_sheet *sheet, int number, const char *name, double range,
+                         uint32_t count) {
+    srp_sheet_print(sheet,
+                    "Motion    : %d\n  Name    : %s\n  Method  : Step\n  Minimum : %g\n"
+                    "  Maximum : %g\n  Step    : %.15g\n",
+                    number, name, -range / 2.0, range / 2.0, range / (double)(count - 1));
+}
+
+static void print_header(srp_sheet *sheet, const srp_table *table) {
+    const srp_table_info *info = &table->info;
+    char text[256];
+    srp_sheet_print(sheet, "%-18s : %s\n", "Version", "4.27");
+    print_value(sheet, "System", info->title[0] != '\0' ? info->title : "spacecraft");
+    srp_sheet_print(sheet, "%-18s : %s\n", "Analysis Type", "Area");
+    srp_sheet_print(sheet, "%-18s : %s\n", "Pressure", "1");
+    snprintf(text, sizeof text, "(%.17g, %.17g, %.17g)", info->params.reference.x,
+             info->params.reference.y, info->params.reference.z);
+    print_value(sheet, "Center of Mass", text);
+    if (info->method[0] != '\0') {
+        snprintf(text, sizeof text, "srpcore %s", info->version);
+        print_value(sheet, "Software", text);
+        snprintf(text, sizeof text, "%s on %s", info->method, info->device);
+        print_value(sheet, "Method", text);
+        print_value(sheet, "Shape hash", info->shape_hash);
+        print_value(sheet, "Optics hash", info->optics_hash);
+    }
+    srp_sheet_print(sheet, "\n");
+    print_motion(sheet, 1, "Azimuth", 360.0, table->grid.az_count);
+    print_motion(sheet, 2, "Elevation", 180.0, table->grid.el_count);
+    srp_sheet_print(sheet, ": END\n\n%-18s : %zu\n\n", "Record count",
+                    srp_grid_node_count(table->grid));
+}
+
+enum { NUMBER_WIDTH = 24 };
+
+static void print_titles(srp_sheet *sheet, bool with_moment) {
+    static const char *const TITLES[] = {"Force(X)",  "Force(Y)",  "Force(Z)", "Force", "Torque(X)",
+                                         "Torque(Y)", "Torque(Z)", "Torque",   "CP-CG"};
+    static const char *const UNITS[] = {"m^2", "m^2", "m^2", "m^2", "m^3",
+                                        "m^3", "m^3", "m^3", "m"};
+    static const char DASHES[] = "-----------------------";
+    size_t columns = with_moment ? 9 : 3;
+    srp_sheet_print(sheet, " AzimuthElevatio");
+    for (size_t k = 0; k < columns; ++k) {
+        srp_sheet_print(sheet, " %*s", NUMBER_WIDTH, TITLES[k]);
+    }
+    srp_sheet_print(sheet, "\n degrees degrees");
+    for (size_t k = 0; k < columns; ++k) {
+        srp_sheet_print(sheet, " %*s", NUMBER_WIDTH, UNITS[k]);
+    }
+    srp_sheet_print(sheet, "\n ------- -------");
+    for (size_t k = 0; k < columns; ++k) {
+        srp_sheet_print(sheet, " %*s", NUMBER_WIDTH, DASHES);
+    }
+    srp_sheet_print(sheet, "\n");
+}
+
+static void print_numbers(srp_sheet *sheet, size_t count, const double *values) {
+    for (size_t k = 0; k < count; ++k) {
+        srp_sheet_print(sheet, " %*.16e", NUMBER_WIDTH, values[k]);
+    }
+}
+
+static void print_node(srp_sheet *sheet, const srp_response *node, bool with_moment) {
+    const double force[] = {node->f.x, node->f.y, node->f.z};
+    print_numbers(sheet, 3, force);
+    if (with_moment) {
+        double ff = srp_vec3_dot(node->f, node->f);
+        double distance = ff > 0.0 ? srp_vec3_norm(srp_vec3_cross(node->f, node->t)) / ff : 0.0;
+        const double rest[] = {sqrt(ff), node->t.x, node->t.y, node->t.z, srp_vec3_norm(node->t),
+                               distance};
+        print_numbers(sheet, 6, rest);
+    }
+    srp_sheet_print(sheet, "\n");
+}
+
+static srp_status write_spo(const srp_table *table, const char *path, srp_error *error) {
+    srp_sheet sheet = {0};
+    srp_c_locale locale = srp_platform_c_locale_enter();
+    print_header(&sheet, table);
+    print_titles(&sheet, table->info.has_moment);
+    for (uint32_t i = 0; i < table->grid.az_count; ++i) {
+        for (uint32_t j = 0; j < table->grid.el_count; ++j) {
+            srp_sheet_print_angles(&sheet, table->grid, i, j);
+            print_node(&sheet, srp_table_node(table, i, j), table->info.has_moment);
+        }
+    }
+    srp_platform_c_locale_leave(locale);
+    return srp_sheet_save(&sheet, path, error);
+}
+
+/* ---- Reading -------------------------------------------------------------------------------- */
+
+typedef enum section { IN_HEADER, IN_MOTIONS, BEHIND_END, IN_DATA } section;
+
+/* What a `Motion` block says; NAN, "" while it has not. */
+typedef struct motion {
+    srp_token name, method;
+    double minimum, maximum, step;
+    size_t line;
+} motion;
+
+typedef struct reader {
+    srp_text text;
+    size_t size;
+    srp_error *error;
+    section section;
+    bool has_analysis;
+    srp_token title;
+    double center[3];
+    motion motions[2];
+    int motion_count;
+    int64_t record_count; /* -1 while unknown */
+    bool has_units, has_torque;
+    double force_scale[3], torque_scale[3];
+    srp_table *table;
+    size_t rows;
+} reader;
+
+static bool starts_with(srp_token token, const char *prefix) {
+    size_t size = strlen(prefix);
+    return token.size >= size && memcmp(token.text, prefix, size) == 0;
+}
+
+static bool contains(srp_token token, const char *word) {
+    size_t size = strlen(word);
+    for (size_t k = 0; k + size <= token.size; ++k) {
+        if (memcmp(token.text + k, word, size) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+/* The part without blanks at its ends. */
+static srp_token trimmed_part(srp_token token, size_t begin, size_t end) {
+    while (begin < end && is_blank(token.text[begin])) {
+        begin++;
+    }
+    while (end > begin && is_blank(token.text[end - 1])) {
+        end--;
+    }
+    return srp_token_part(token, begin, end);
+}
+
+/* Only dashes and blanks, with two dashes side by side. */
+static bool is_dashed(srp_token line) {
+    for (size_t k = 0; k < line.size; ++k) {
+        if (line.text[k] != '-' && !is_blank(line.text[k])) {
+            return false;
+        }
+    }
+    return contains(line, "--");
+}
+
+/* Splits `key : value` at its only colon. */
+static srp_status split(const reader *in, srp_token line, srp_token *key, srp_token *value) {
+    size_t colon = line.size, colons = 0;
+    for (size_t k = 0; k < line.size; ++k) {
+        if (line.text[k] == ':') {
+            colon = colons++ == 0 ? k : colon;
+        }
+    }
+    if (colons != 1) {
+        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, line.line, line.column,
+                           "found %zu colons in %s, expected 'key : value' with one colon", colons,
+                           srp_token_excerpt(line).text);
+    }
+    *key = trimmed_part(line, 0, colon);
+    *value = trimmed_part(line, colon + 1, line.size);
+    if (key->size == 0 || value->size == 0) {
+        return srp_text_expected(&in->text, line, "'key : value'", in->error);
+    }
+    return SRP_OK;
+}
+
+/* `(x, y, z)`. Other programs may write what they like there: false when it is something else. */
+static bool parse_center(const reader *in, srp_token value, double center[3]) {
+    size_t begin = 1;
+    if (value.size < 2 || value.text[0] != '(' || value.text[value.size - 1] != ')') {
+        return false;
+    }
+    for (int k = 0; k < 3; ++k) {
+        size_t end = begin;
+        while (end < value.size - 1 && value.text[end] != ',') {
+            end++;
+        }
+        srp_token part = trimmed_part(value, begin, end);
+        if (part.size == 0 || (k < 2) != (end < value.size - 1) ||
+            srp_token_double(&in->text, part, "a coordinate", &center[k], NULL) != SRP_OK) {
+            return false;
+        }
+        begin = end + 1;
+    }
+    return true;
+}
+
+static srp_status take_header_line(reader *in, srp_token line) {
+    srp_token key, value;
+    if (starts_with(line, "Current")) {
+        return SRP_OK; /* a time, with colons of its own */
+    }
+    srp_status status = split(in, line, &key, &value);
+    if (status != SRP_OK) {
+        return status;
+    }
+    if (srp_token_is(key, "Analysis Type")) {
+        if (!srp_token_is(value, "Area")) {
+            return srp_text_expected(&in->text, value, "the analysis type 'Area'", in->error);
+        }
+        in->has_analysis = true;
+    } else if (srp_token_is(key, "System")) {
+        in->title = value;
+    } else if (srp_token_is(key, "Center of Mass")) {
+        double center[3];
+        if (parse_center(in, value, center)) {
+            memcpy(in->center, center, sizeof center);
+        }
+    }
+    return SRP_OK;
+}
+
+static srp_status begin_motion(reader *in, srp_token value) {
+    if (in->motion_count == 2) {
+        return srp_text_expected(&in->text, value,
+                                 "two motions, azimuth and elevation, and no third", in->error);
+    }
+    bool first = in->motion_count == 0;
+    if (!srp_token_is(value, first ? "1" : "2")) {
+        return srp_text_expected(&in->text, value,
+                                 first ? "1, the motion in azimuth" : "2, the motion in elevation",
+                                 in->error);
+    }
+    motion *next = &in->motions[in->motion_count++];
+    next->minimum = next->maximum = next->step = NAN;
+    next->line = value.line;
+    return SRP_OK;
+}
+
+static srp_status take_record_count(reader *in, srp_token value) {
+    return srp_token_integer(&in->text, value, "the number of records", 1,
+                             (int64_t)SRP_GRID_AZ_MAX * SRP_GRID_EL_MAX, &in->record_count,
+                             in->error);
+}
+
+static srp_status take_motion_line(reader *in, srp_token line) {
+    srp_token key, value;
+    if (starts_with(line, "Current")) {
+        return SRP_OK;
+    }
+    if (contains(line, "END")) {
+        in->section = BEHIND_END;
+        return SRP_OK;
+    }
+    srp_status status = split(in, line, &key, &value);
+    if (status != SRP_OK) {
+        return status;
+    }
+    if (srp_token_is(key, "Record count")) {
+        return take_record_count(in, value);
+    }
+    if (in->section == BEHIND_END) {
+        return srp_text_expected(&in->text, key, "'Record count : N'", in->error);
+    }
+    if (srp_token_is(key, "Motion")) {
+        return begin_motion(in, value);
+    }
+    if (in->motion_count == 0) {
+        return srp_text_expected(&in->text, key, "'Motion : 1'", in->error);
+    }
+    motion *last = &in->motions[in->motion_count - 1];
+    if (srp_token_is(key, "Name")) {
+        last->name = value;
+    } else if (srp_token_is(key, "Method")) {
+        last->method = value;
+    } else if (srp_token_is(key, "Minimum")) {
+        return srp_token_double(&in->text, value, "the smallest angle", &last->minimum, in->error);
+    } else if (srp_token_is(key, "Maximum")) {
+        return srp_token_double(&in->text, value, "the largest angle", &last->maximum, in->error);
+    } else if (srp_token_is(key, "Step")) {
+        return srp_token_double(&in->text, value, "the step", &last->step, in->error);
+    } else {
+        return srp_text_expected(&in->text, key,
+                                 "Motion, Name, Method, Minimum, Maximum, Step or Record count",
+                                 in->error);
+    }
+    return SRP_OK;
+}
+
+static srp_status check_motion(const reader *in, const motion *found, const char *name,
+                               double range) {
+    if (!srp_token_is(found->name, name) || !srp_token_is(found->method, "Step")) {
+        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, found->line, 0,
+                           "expected a motion with 'Name : %s' and 'Method : Step'", name);
+    }
+    if (found->minimum != -range / 2.0 || found->maximum != range / 2.0) {
+        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, found->line, 0,
+                           "found %s from %g to %g, expected %g to %g", name, found->minimum,
+                           found->maximum, -range / 2.0, range / 2.0);
+    }
+    if (isnan(found->step)) {
+        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, found->line, 0,
+                           "expected 'Step : DEGREES' for %s", name);
+    }
+    return SRP_OK;
+}
+
+/* All that stands before the data has been read: checks it, and makes the table. */
+static srp_status end_header(reader *in, srp_token line) {
+    const char *missing = !in->has_analysis        ? "'Analysis Type : Area'"
+                          : in->motion_count < 2   ? "two motions, azimuth and elevation,"
+                          : in->record_count == -1 ? "'Record count : N'"
+                                                   : NULL;
+    if (missing != NULL) {
+        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, line.line, line.column,
+                           "the data begin here, expected %s before them", missing);
+    }
+    srp_status status = check_motion(in, &in->motions[0], "Azimuth", 360.0);
+    if (status == SRP_OK) {
+        status = check_motion(in, &in->motions[1], "Elevation", 180.0);
+    }
+    srp_grid grid;
+    if (status == SRP_OK) {
+        status = srp_table_grid_of_file(&in->text, in->motions[0].line, in->size,
+                                        in->motions[0].step, in->motions[1].step, &grid, in->error);
+    }
+    if (status == SRP_OK && (uint64_t)in->record_count != srp_grid_node_count(grid)) {
+        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, line.line, 0,
+                           "found a record count of %lld, expected the %zu that the steps give",
+                           (long long)in->record_count, srp_grid_node_count(grid));
+    }
+    if (status == SRP_OK) {
+        status = srp_table_create_blank(grid, 0, false, &in->table, in->error);
+    }
+    in->section = IN_DATA;
+    return status;
+}
+
+typedef struct length_unit {
+    const char *name;
+    double metres;
+} length_unit;
+
+static const length_unit UNITS[] = {
+    {"mm", 1e-3}, {"m", 1.0}, {"cm", 1e-2}, {"in", 0.0254}, {"ft", 0.3048}};
+
+/* Factor to [m^power] of a unit such as "cm^2"; NAN when it is none. */
+static double unit_scale(srp_token token, int power) {
+    for (size_t k = 0; k < sizeof UNITS / sizeof UNITS[0]; ++k) {
+        char name[8];
+        snprintf(name, sizeof name, "%s^%d", UNITS[k].name, power);
+        if (srp_token_is(token, name)) {
+            return power == 2 ? UNITS[k].metres * UNITS[k].metres
+                              : UNITS[k].metres * UNITS[k].metres * UNITS[k].metres;
+        }
+    }
+    return NAN;
+}
+
+static srp_status take_units(reader *in) {
+    srp_token token;
+    for (int k = 0; k < 2; ++k) {
+        if (!srp_text_next_token(&in->text, &token) || !srp_token_is(token, "degrees")) {
+            return srp_text_expected(&in->text, token, "the unit 'degrees'", in->error);
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        srp_text_next_token(&in->text, &token);
+        in->force_scale[k] = unit_scale(token, 2);
+        if (isnan(in->force_scale[k])) {
+            return srp_text_expected(&in->text, token,
+                                     "a unit of force, mm^2, m^2, cm^2, in^2 or ft^2", in->error);
+        }
+    }
+    /* Total force, then the torques; files with fewer columns, or other ones, are fine without. */
+    in->has_torque = srp_text_next_token(&in->text, &token) && !isnan(unit_scale(token, 2));
+    for (int k = 0; k < 3 && in->has_torque; ++k) {
+        srp_text_next_token(&in->text, &token);
+        in->torque_scale[k] = unit_scale(token, 3);
+        in->has_torque = !isnan(in->torque_scale[k]);
+    }
+    in->table->info.has_moment = in->has_torque;
+    in->has_units = true;
+    return SRP_OK;
+}
+
+static srp_status take_row(reader *in) {
+    srp_table_row row;
+    srp_vec3 f, t = {0.0, 0.0, 0.0};
+    double total;
+    srp_status status = srp_table_row_begin(&in->text, &row, in->error);
+    if (status == SRP_OK) {
+        status = srp_table_row_check(&in->text, in->table->grid, in->rows, &row, in->error);
+    }
+    if (status == SRP_OK) {
+        status = srp_table_row_vec3(&in->text, "Force", in->force_scale, &f, in->error);
+    }
+    if (status == SRP_OK && in->has_torque) {
+        status = srp_text_double(&in->text, "the total force", &total, NULL, in->error);
+    }
+    if (status == SRP_OK && in->has_torque) {
+        status = srp_table_row_vec3(&in->text, "Torque", in->torque_scale, &t, in->error);
+    }
+    if (status == SRP_OK) {
+        in->table->nodes[in->rows].f = f;
+        in->table->nodes[in->rows].t = t;
+        srp_table_mark_filled(in->table, in->rows++);
+    }
+    return status;
+}
+
+static srp_status take_data_line(reader *in, srp_token line) {
+    if (starts_with(line, "Azimuth") || is_dashed(line)) {
+        return SRP_OK;
+    }
+    if (starts_with(line, "degree")) {
+        return take_units(in);
+    }
+    if (!in->has_units) {
+        return srp_text_expected(&in->text, line, "a line of units, 'degrees degrees m^2 ...'",
+                                 in->error);
+    }
+    return take_row(in);
+}
+
+static srp_status take_line(reader *in) {
+    /* The line as a whole, without moving on. */
+    srp_text ahead = in->text;
+    srp_token line = srp_text_rest(&ahead);
+    if (in->section == IN_HEADER && starts_with(line, "Motion")) {
+        in->section = IN_MOTIONS;
+    }
+    if (in->section != IN_DATA && starts_with(line, "Azimuth")) {
+        return end_header(in, line);
+    }
+    switch (in->section) {
+    case IN_HEADER:
+        return take_header_line(in, line);
+    case IN_MOTIONS:
+    case BEHIND_END:
+        return take_motion_line(in, line);
+    case IN_DATA:
+        break;
+    }
+    return take_data_line(in, line);
+}
+
+static srp_status end_file(reader *in) {
+    if (in->section != IN_DATA) {
+        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, in->text.line, 0,
+                           "the text ends before any data, expected a SPAD file");
+    }
+    if (!srp_table_is_complete(in->table)) {
+        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, in->text.line, 0,
+                           "the file ends after %zu records, expected %zu", in->rows,
+                           srp_grid_node_count(in->table->grid));
+    }
+    if (in->has_torque) {
+        in->table->info.params.reference =
+            srp_vec3_make(in->center[0], in->center[1], in->center[2]);
+    }
+    return srp_table_set_text(&in->table->info.title, in->title.text != NULL ? in->title.text : "",
+                              in->title.size, in->error);
+}
+
+srp_status srp_table_parse_spo(const char *text, size_t size, const char *name, srp_table **out,
+                               srp_error *error) {
+    reader in;
+    memset(&in, 0, sizeof in);
+    in.error = error;
+    in.size = size;
+    in.record_count = -1;
+    srp_status status = srp_text_open(&in.text, text, size, name, 0, in.error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    srp_c_locale locale = srp_platform_c_locale_enter();
+    while (status == SRP_OK && srp_text_next_line(&in.text)) {
+        status = take_line(&in);
+    }
+    if (status == SRP_OK) {
+        status = end_file(&in);
+    }
+    srp_platform_c_locale_leave(locale);
+    if (status != SRP_OK) {
+        srp_table_destroy(in.table);
+        return status;
+    }
+    *out = in.table;
+    return SRP_OK;
+}
+
+static srp_status read_spo(const char *path, srp_table **out, srp_error *error) {
+    char *bytes;
+    size_t size;
+    srp_status status = srp_text_read_file(path, &bytes, &size, error);
+    if (status == SRP_OK) {
+        status = srp_table_parse_spo(bytes, size, path, out, error);
+        free(bytes);
+    }
+    return status;
+}
+
+const srp_table_format srp_table_format_spo = {
+    .name = "spo",
+    .ending = ".spo",
+    .summary = "SPAD: force and torque, for GMAT and STK",
+    .capabilities = 0,
+    .write = write_spo,
+    .read = read_spo,
+};
