@@ -1,0 +1,405 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* srp table: the response over the whole sphere of directions, in one file or several. */
+#include "command_line.h"
+#include "commands.h"
+#include "messages.h"
+#include "model.h"
+#include "outputs.h"
+#include "progress.h"
+#include "system.h"
+
+#include <srp/table.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    TABLE_OUTPUT,
+    TABLE_STEP,
+    TABLE_AZ_STEP,
+    TABLE_EL_STEP,
+    TABLE_MASS,
+    TABLE_FLUX,
+    TABLE_BASIS,
+    TABLE_TITLE,
+    TABLE_RESTART,
+    TABLE_OPTION_COUNT
+};
+
+typedef struct table_options {
+    cli_given given;
+    cli_list outputs;
+    double step, az_step, el_step, mass, flux;
+    const char *title; /* NULL = names of the model */
+    bool basis, restart;
+} table_options;
+
+static const cli_option OPTIONS[TABLE_OPTION_COUNT] = {
+    [TABLE_OUTPUT] = {.name = "output",
+                      .letter = 'o',
+                      .value = "FILE",
+                      .complete = CLI_COMPLETE_FILE,
+                      .help = "File to write; its ending chooses the format. May be given several "
+                              "times.",
+                      .set = cli_set_list,
+                      .offset = offsetof(table_options, outputs)},
+    [TABLE_STEP] = {.name = "step",
+                    .value = "DEG",
+                    .help = "Step of azimuth and elevation; divides 180. Default: 5.",
+                    .set = cli_set_number,
+                    .offset = offsetof(table_options, step),
+                    .range = &CLI_POSITIVE},
+    [TABLE_AZ_STEP] = {.name = "az-step",
+                       .value = "DEG",
+                       .help = "Step of azimuth alone; divides 360.",
+                       .set = cli_set_number,
+                       .offset = offsetof(table_options, az_step),
+                       .range = &CLI_POSITIVE},
+    [TABLE_EL_STEP] = {.name = "el-step",
+                       .value = "DEG",
+                       .help = "Step of elevation alone; divides 180.",
+                       .set = cli_set_number,
+                       .offset = offsetof(table_options, el_step),
+                       .range = &CLI_POSITIVE},
+    [TABLE_MASS] = {.name = "mass",
+                    .value = "KG",
+                    .help = "Mass of the spacecraft, for formats that hold accelerations.",
+                    .set = cli_set_number,
+                    .offset = offsetof(table_options, mass),
+                    .range = &CLI_POSITIVE},
+    [TABLE_FLUX] = {.name = "flux",
+                    .value = "W/M2",
+                    .help = "Solar flux at 1 AU that the outputs state. Default: 1367.",
+                    .set = cli_set_number,
+                    .offset = offsetof(table_options, flux),
+                    .range = &CLI_POSITIVE},
+    [TABLE_BASIS] = {.name = "basis",
+                     .help = "Keep the sums of each material, from which the force follows for any "
+                             "optics.",
+                     .set = cli_set_flag,
+                     .offset = offsetof(table_options, basis)},
+    [TABLE_TITLE] = {.name = "title",
+                     .value = "TEXT",
+                     .help = "Title in the outputs. Default: the names of the model's files.",
+                     .set = cli_set_text,
+                     .offset = offsetof(table_options, title)},
+    [TABLE_RESTART] = {.name = "restart",
+                       .help = "Discard what an interrupted run left, and compute from the "
+                               "beginning.",
+                       .set = cli_set_flag,
+                       .offset = offsetof(table_options, restart)},
+};
+
+static const cli_group TABLE = {"Table", OPTIONS, TABLE_OPTION_COUNT};
+static const cli_group *const GROUPS[] = {&TABLE, &cli_group_model, &cli_group_method};
+
+static const double CHECKPOINT_SECONDS = 30.0;
+
+/* One run. */
+typedef struct table_job {
+    const table_options *options;
+    const cli_model_options *model;
+    const cli_method_options *how;
+    const cli_operands *operands;
+    srp_grid grid;
+    cli_model loaded;
+    srp_table *table;
+    const char *command_line;
+    char *title, *partial; /* partial: where an interrupted run leaves its nodes */
+    cli_progress progress;
+    double saved; /* time of the last checkpoint [s] */
+    bool save_failed;
+} table_job;
+
+/* ---- before the computing ---- */
+
+static int choose_grid(const table_options *options, srp_grid *grid) {
+    bool az = cli_is_given(options->given, TABLE_AZ_STEP);
+    bool el = cli_is_given(options->given, TABLE_EL_STEP);
+    if (cli_is_given(options->given, TABLE_STEP) && (az || el)) {
+        return cli_usage_error("--step and --%s exclude each other", az ? "az-step" : "el-step");
+    }
+    srp_error error;
+    srp_status status = srp_grid_from_steps(az ? options->az_step : options->step,
+                                            el ? options->el_step : options->step, grid, &error);
+    return status == SRP_OK ? CLI_DONE : cli_usage_error("%s", error.message);
+}
+
+/* All that can be said without reading the model. */
+static int check(table_job *job, const srp_method **method, srp_method_params *params) {
+    const table_options *options = job->options;
+    if (options->outputs.count == 0) {
+        return cli_usage_error("no output: -o FILE.nc, -o FILE.spo or -o FILE.txt");
+    }
+    int status = cli_method_choose(job->model, job->how, job->operands->count, method, params);
+    if (status == CLI_DONE) {
+        status = choose_grid(options, &job->grid);
+    }
+    if (status == CLI_DONE && options->basis && !((*method)->capabilities & SRP_METHOD_BASIS)) {
+        status = cli_usage_error("method %s gives no sums per material: --basis", (*method)->name);
+    }
+    cli_table_content content = {cli_is_given(options->given, TABLE_MASS), options->basis};
+    if (status == CLI_DONE) {
+        status = cli_outputs_check(&options->outputs, content, job->operands->items,
+                                   job->operands->count);
+    }
+    if (status == CLI_DONE) {
+        status = cli_outputs_check(&options->outputs, content, &job->model->plates, 1);
+    }
+    return status;
+}
+
+/* Names of the model's files without directories: "bus.obj, HGA.obj". NULL without memory. */
+static char *name_model(const table_job *job) {
+    size_t size = 1;
+    const cli_operands *files = job->operands;
+    cli_operands plates = {&job->model->plates, 1}, method = {&job->how->name, 1};
+    if (files->count == 0) {
+        files = job->model->plates != NULL ? &plates : &method;
+    }
+    for (size_t i = 0; i < files->count; ++i) {
+        size += strlen(files->items[i]) + 2;
+    }
+    char *title = calloc(size, 1);
+    size_t used = 0;
+    for (size_t i = 0; title != NULL && i < files->count; ++i) {
+        const char *slash = strrchr(files->items[i], '/');
+        used += (size_t)snprintf(title + used, size - used, "%s%s", i > 0 ? ", " : "",
+                                 slash != NULL ? slash + 1 : files->items[i]);
+    }
+    return title;
+}
+
+static int name_things(table_job *job) {
+    static const char ending[] = ".partial";
+    const char *first = job->options->outputs.items[0];
+    job->title = name_model(job);
+    size_t size = strlen(first) + sizeof ending;
+    job->partial = malloc(size);
+    if (job->title == NULL || job->partial == NULL) {
+        cli_say("no memory");
+        return CLI_MACHINE_FAILED;
+    }
+    snprintf(job->partial, size, "%s%s", first, ending);
+    return CLI_DONE;
+}
+
+/* ---- what an interrupted run left ---- */
+
+static int refuse_partial(const table_job *job, const srp_error *error) {
+    int status = cli_input_error(error);
+    cli_say("'%s' is of an interrupted run that this one cannot go on with; --restart discards it",
+            job->partial);
+    return status == CLI_MACHINE_FAILED ? status : CLI_BAD_INPUT;
+}
+
+static int resume(table_job *job) {
+    srp_error error;
+    if (srp_table_read(&srp_table_format_netcdf, job->partial, &job->table, &error) != SRP_OK) {
+        return refuse_partial(job, &error);
+    }
+    if (srp_table_check_origin(job->table, job->loaded.prepared, job->grid, job->options->basis,
+                               &error) != SRP_OK) {
+        return refuse_partial(job, &error);
+    }
+    cli_say("going on with %s: %zu of %zu nodes are there", job->partial,
+            srp_table_filled_count(job->table), srp_grid_node_count(job->grid));
+    return CLI_DONE;
+}
+
+static int open_table(table_job *job) {
+    const table_options *options = job->options;
+    srp_error error;
+    int status = CLI_DONE;
+    bool left = cli_system_file_exists(job->partial);
+    if (left && options->restart && remove(job->partial) != 0) {
+        fprintf(stderr, "%s: cannot remove the file\n", job->partial);
+        return CLI_MACHINE_FAILED;
+    }
+    if (left && !options->restart) {
+        status = resume(job);
+    } else if (srp_table_create(job->loaded.prepared, job->grid, options->basis, &job->table,
+                                &error) != SRP_OK) {
+        status = cli_input_error(&error);
+    }
+    srp_sunlight light = srp_sunlight_default();
+    light.flux = options->flux;
+    if (status == CLI_DONE &&
+        srp_table_describe(job->table, options->title != NULL ? options->title : job->title,
+                           job->command_line, light, options->mass, &error) != SRP_OK) {
+        status = cli_input_error(&error);
+    }
+    return status;
+}
+
+/* ---- computing ---- */
+
+static bool save_partial(table_job *job, const srp_table *table, srp_error *error) {
+    return srp_table_write(table, &srp_table_format_netcdf, job->partial, error) == SRP_OK;
+}
+
+static bool report(void *user, const srp_table *table, size_t done, size_t total) {
+    table_job *job = user;
+    double now = cli_system_seconds();
+    if (now - job->saved >= CHECKPOINT_SECONDS && done < total) {
+        srp_error error;
+        if (!save_partial(job, table, &error) && !job->save_failed) {
+            cli_progress_clear(&job->progress);
+            cli_output_error(&error);
+            cli_say("warning: the run goes on, but could not be resumed after an interruption");
+            job->save_failed = true;
+        }
+        job->saved = cli_system_seconds();
+    }
+    cli_progress_show(&job->progress, done, total);
+    return cli_system_signal_seen() == 0;
+}
+
+/* Keeps what was computed, and says how to go on. */
+static void leave_partial(table_job *job) {
+    srp_error error;
+    size_t filled = srp_table_filled_count(job->table);
+    if (filled == 0) {
+        return;
+    }
+    if (!save_partial(job, job->table, &error)) {
+        cli_output_error(&error);
+        cli_say("what was computed is lost");
+        return;
+    }
+    cli_say("%zu of %zu nodes are kept in %s; to go on:\n  %s", filled,
+            srp_grid_node_count(job->grid), job->partial, job->command_line);
+}
+
+static int fill(table_job *job) {
+    srp_table_progress progress = {report, job};
+    srp_error error;
+    cli_system_catch_signals();
+    job->saved = cli_system_seconds();
+    cli_progress_begin(&job->progress);
+    srp_status status = srp_table_fill(job->table, job->loaded.prepared, &progress, &error);
+    cli_progress_clear(&job->progress);
+    if (status == SRP_OK) {
+        return CLI_DONE;
+    }
+    int exit_status = CLI_MACHINE_FAILED;
+    if (status == SRP_CANCELLED) {
+        cli_say("interrupted");
+    } else {
+        exit_status = cli_input_error(&error);
+    }
+    leave_partial(job);
+    if (status == SRP_CANCELLED) {
+        cli_system_die_by_signal(cli_system_signal_seen());
+    }
+    return exit_status;
+}
+
+/* Nodes with this note (SRP_RESPONSE_...). */
+static size_t count_flagged(const srp_table *table, unsigned flag) {
+    srp_grid grid = srp_table_grid(table);
+    size_t flagged = 0;
+    for (uint32_t i = 0; i < grid.az_count; ++i) {
+        for (uint32_t j = 0; j < grid.el_count; ++j) {
+            flagged += (srp_table_node(table, i, j)->flags & flag) != 0;
+        }
+    }
+    return flagged;
+}
+
+static int finish(table_job *job) {
+    size_t written, missed = count_flagged(job->table, SRP_RESPONSE_TOLERANCE_MISSED);
+    size_t cut = count_flagged(job->table, SRP_RESPONSE_CUT);
+    int status = cli_outputs_write(&job->options->outputs, job->table, &written);
+    if (status != CLI_DONE) {
+        leave_partial(job);
+        return status;
+    }
+    remove(job->partial);
+    cli_outputs_report(&job->options->outputs, job->table);
+    if (missed > 0) {
+        cli_say("warning: %zu nodes did not reach the tolerance with %u samples a side", missed,
+                srp_prepared_params(job->loaded.prepared)->max_samples);
+    }
+    if (cut > 0) {
+        cli_say("warning: in %zu nodes, part of the model lies outside the window", cut);
+    }
+    return CLI_DONE;
+}
+
+static int make_table(table_job *job) {
+    const srp_method *method = NULL;
+    srp_method_params params;
+    int status = check(job, &method, &params);
+    if (status == CLI_DONE) {
+        status = name_things(job);
+    }
+    if (status == CLI_DONE) {
+        status = cli_model_load(job->model, job->how, job->operands, method, &params, &job->loaded);
+    }
+    if (status == CLI_DONE) {
+        status = open_table(job);
+    }
+    if (status == CLI_DONE) {
+        status = fill(job);
+    }
+    if (status == CLI_DONE) {
+        status = finish(job);
+    }
+    srp_table_destroy(job->table);
+    cli_model_release(&job->loaded);
+    free(job->title);
+    free(job->partial);
+    return status;
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    table_options options = {.step = 5.0, .mass = NAN, .flux = SRP_SOLAR_FLUX};
+    cli_model_options model = cli_model_options_default();
+    cli_method_options how = cli_method_options_default();
+    void *const targets[] = {&options, &model, &how};
+    cli_operands operands;
+    /* Before getopt_long() reorders the words. */
+    char *command_line = cli_command_line_join(argc, argv, "--restart");
+    if (command_line == NULL) {
+        cli_say("no memory");
+        return CLI_MACHINE_FAILED;
+    }
+    int status;
+    if (cli_command_parse(command, argc, argv, targets, &operands, &status)) {
+        table_job job = {.options = &options,
+                         .model = &model,
+                         .how = &how,
+                         .operands = &operands,
+                         .command_line = command_line};
+        status = make_table(&job);
+    }
+    free(command_line);
+    cli_list_free(&options.outputs);
+    cli_list_free(&model.materials);
+    return status;
+}
+
+const cli_command cli_command_table = {
+    .name = "table",
+    .operands = "MODEL.obj... -o FILE",
+    .operand_files = "obj",
+    .summary = "table of forces over azimuth and elevation of the Sun",
+    .description =
+        "Computes the response of a spacecraft to sunlight from all directions of a grid of "
+        "azimuth and elevation, and writes it to one file or several. Several OBJ files are "
+        "joined.\n\n"
+        "Everything that can be checked is checked before the computing begins. A run that is "
+        "interrupted (Ctrl-C) leaves its nodes in a file FIRST_OUTPUT.partial, and so does every "
+        "half minute of a long one; the same command again goes on from there and gives the same "
+        "table.",
+    .examples = "srp table box-wing.obj -o box-wing.nc -o box-wing.spo\n"
+                "srp table box-wing.obj -o box-wing.txt --step 10 --mass 850\n"
+                "srp table bus.obj antenna.obj -o all.nc --material gold=0.6,0.1 --basis\n"
+                "srp table dish.obj -o dish.nc --method raycast --tolerance 1e-4",
+    .groups = GROUPS,
+    .group_count = sizeof GROUPS / sizeof GROUPS[0],
+    .run = run,
+};

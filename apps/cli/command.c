@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "command.h"
+
+#include "help.h"
+#include "messages.h"
+#include "numbers.h"
+#include "suggest.h"
+
+#include <srp/vec3.h>
+
+#include <float.h>
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const cli_range CLI_ANY = {-DBL_MAX, DBL_MAX, false, "a number"};
+const cli_range CLI_POSITIVE = {0.0, DBL_MAX, true, "a number above 0"};
+const cli_range CLI_NOT_NEGATIVE = {0.0, DBL_MAX, false, "a number not below 0"};
+
+enum { OPTION_HELP, OPTION_VERSION, COMMON_COUNT };
+
+typedef struct common_options {
+    cli_given given;
+    bool help, version;
+} common_options;
+
+static const cli_option COMMON[COMMON_COUNT] = {
+    [OPTION_HELP] = {.name = "help",
+                     .letter = 'h',
+                     .help = "Show this help and exit.",
+                     .set = cli_set_flag,
+                     .offset = offsetof(common_options, help)},
+    [OPTION_VERSION] = {.name = "version",
+                        .help = "Show the version and exit.",
+                        .set = cli_set_flag,
+                        .offset = offsetof(common_options, version)},
+};
+
+const cli_group cli_group_common = {"Other options", COMMON, COMMON_COUNT};
+
+/* ---- setters ---- */
+
+static void *field(const cli_option *option, void *target) {
+    return (char *)target + option->offset;
+}
+
+bool cli_set_flag(const cli_option *option, void *target, const char *text) {
+    (void)text;
+    *(bool *)field(option, target) = true;
+    return true;
+}
+
+bool cli_set_text(const cli_option *option, void *target, const char *text) {
+    if (text[0] == '\0') {
+        return cli_reject(option, text, option->value);
+    }
+    *(const char **)field(option, target) = text;
+    return true;
+}
+
+static bool in_range(const cli_range *range, double value) {
+    return value <= range->max && (range->above_min ? value > range->min : value >= range->min);
+}
+
+bool cli_set_number(const cli_option *option, void *target, const char *text) {
+    double value;
+    if (!cli_read_number(text, &value) || !in_range(option->range, value)) {
+        return cli_reject(option, text, option->range->words);
+    }
+    *(double *)field(option, target) = value;
+    return true;
+}
+
+bool cli_set_count(const cli_option *option, void *target, const char *text) {
+    uint64_t value;
+    if (!cli_read_count(text, UINT32_MAX, &value) || !in_range(option->range, (double)value)) {
+        return cli_reject(option, text, option->range->words);
+    }
+    *(uint32_t *)field(option, target) = (uint32_t)value;
+    return true;
+}
+
+bool cli_set_bits(const cli_option *option, void *target, const char *text) {
+    uint64_t value;
+    if (!cli_read_count(text, UINT64_MAX, &value)) {
+        return cli_reject(option, text, "a whole number from 0 to 18446744073709551615");
+    }
+    *(uint64_t *)field(option, target) = value;
+    return true;
+}
+
+bool cli_set_vector(const cli_option *option, void *target, const char *text) {
+    double value[3];
+    if (!cli_read_numbers(text, 3, value)) {
+        return cli_reject(option, text, "three numbers X,Y,Z with commas and no blanks");
+    }
+    *(srp_vec3 *)field(option, target) = srp_vec3_make(value[0], value[1], value[2]);
+    return true;
+}
+
+bool cli_set_window(const cli_option *option, void *target, const char *text) {
+    double value[4];
+    if (!cli_read_numbers(text, 4, value) || !(value[0] < value[1]) || !(value[2] < value[3])) {
+        return cli_reject(
+            option, text,
+            "four numbers U0,U1,V0,V1 with U0 < U1 and V0 < V1, commas and no blanks");
+    }
+    memcpy(field(option, target), value, sizeof value);
+    return true;
+}
+
+bool cli_set_list(const cli_option *option, void *target, const char *text) {
+    cli_list *list = field(option, target);
+    if (text[0] == '\0') {
+        return cli_reject(option, text, option->value);
+    }
+    const char **items = realloc((void *)list->items, (list->count + 1) * sizeof *items);
+    if (items == NULL) {
+        return cli_reject(option, text, "memory for it, which there is not");
+    }
+    list->items = items;
+    items[list->count++] = text;
+    return true;
+}
+
+void cli_list_free(cli_list *list) {
+    free((void *)list->items);
+    list->items = NULL;
+    list->count = 0;
+}
+
+/* ---- parsing ---- */
+
+enum { OPTIONS_MAX = 64, LONG_BASE = 256 }; /* of one command; values of long options from there */
+
+/* All options of one command side by side, as getopt_long() wants them. */
+typedef struct parser {
+    const cli_option *option[OPTIONS_MAX];
+    void *target[OPTIONS_MAX];
+    unsigned bit[OPTIONS_MAX];
+    size_t count;
+    struct option longs[OPTIONS_MAX + 1];
+    char shorts[2 * OPTIONS_MAX + 2];
+} parser;
+
+static void add_group(parser *p, const cli_group *group, void *target) {
+    size_t used = strlen(p->shorts);
+    for (size_t i = 0; i < group->count && p->count < OPTIONS_MAX; ++i) {
+        const cli_option *option = &group->options[i];
+        size_t k = p->count++;
+        p->option[k] = option;
+        p->target[k] = target;
+        p->bit[k] = (unsigned)i;
+        p->longs[k].name = option->name;
+        p->longs[k].has_arg = option->value != NULL ? required_argument : no_argument;
+        p->longs[k].val = LONG_BASE + (int)k;
+        if (option->letter != 0) {
+            p->shorts[used++] = option->letter;
+            if (option->value != NULL) {
+                p->shorts[used++] = ':';
+            }
+        }
+    }
+}
+
+/* Place of the option that getopt_long() returned as `code`, p->count when it was none. */
+static size_t place_of(const parser *p, int code) {
+    if (code >= LONG_BASE) {
+        return (size_t)(code - LONG_BASE);
+    }
+    size_t k = 0;
+    while (k < p->count && p->option[k]->letter != code) {
+        ++k;
+    }
+    return k;
+}
+
+/* The option that getopt_long() stopped at, as the user wrote it. */
+static void explain(const parser *p, int code, const char *word) {
+    if (code == ':') {
+        size_t k = place_of(p, optopt);
+        cli_usage_error("%s needs a value: %s", word, p->option[k]->value);
+        return;
+    }
+    if (optopt >= LONG_BASE) {
+        cli_usage_error("--%s takes no value", p->option[optopt - LONG_BASE]->name);
+        return;
+    }
+    if (optopt != 0) {
+        cli_usage_error("unknown option '-%c'", optopt);
+        return;
+    }
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
+    size_t matches = 0;
+    cli_suggestion near = cli_suggestion_begin(name);
+    for (size_t k = 0; k < p->count; ++k) {
+        matches += strncmp(p->option[k]->name, name, strlen(name)) == 0;
+        cli_suggestion_offer(&near, p->option[k]->name);
+    }
+    if (matches > 1) {
+        cli_usage_error("option '--%s' is ambiguous", name);
+    } else if (near.best != NULL) {
+        cli_usage_error("unknown option '--%s', did you mean '--%s'?", name, near.best);
+    } else {
+        cli_usage_error("unknown option '--%s'", name);
+    }
+}
+
+static bool read_options(parser *p, int argc, char **argv) {
+    opterr = 0;
+    optind = 1;
+    for (;;) {
+        optopt = 0;
+        int code = getopt_long(argc, argv, p->shorts, p->longs, NULL);
+        if (code == -1) {
+            return true;
+        }
+        if (code == '?' || code == ':') {
+            explain(p, code, argv[optind - 1]);
+            return false;
+        }
+        size_t k = place_of(p, code);
+        if (!p->option[k]->set(p->option[k], p->target[k], optarg)) {
+            return false;
+        }
+        *(cli_given *)p->target[k] |= (cli_given)1 << p->bit[k];
+    }
+}
+
+bool cli_command_parse(const cli_command *command, int argc, char **argv, void *const *targets,
+                       cli_operands *operands, int *exit_status) {
+    parser p;
+    memset(&p, 0, sizeof p);
+    p.shorts[0] = ':'; /* tells a missing value from an unknown option */
+    common_options common = {0, false, false};
+    for (size_t i = 0; i < command->group_count; ++i) {
+        add_group(&p, command->groups[i], targets[i]);
+    }
+    add_group(&p, &cli_group_common, &common);
+    bool good = read_options(&p, argc, argv);
+    /* Asked for help among mistakes, give help. */
+    if (common.help) {
+        cli_help_command(stdout, command);
+        *exit_status = CLI_DONE;
+        return false;
+    }
+    if (!good) {
+        *exit_status = CLI_BAD_USAGE;
+        return false;
+    }
+    if (common.version) {
+        cli_help_version(stdout);
+        *exit_status = CLI_DONE;
+        return false;
+    }
+    operands->items = (const char *const *)argv + optind;
+    operands->count = (size_t)(argc - optind);
+    return true;
+}

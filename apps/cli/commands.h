@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The subcommands, one file cmd_NAME.c each. */
+#ifndef SRP_CLI_COMMANDS_H
+#define SRP_CLI_COMMANDS_H
+
+#include "command.h"
+
+extern const cli_command cli_command_info;
+extern const cli_command cli_command_force;
+extern const cli_command cli_command_table;
+extern const cli_command cli_command_convert;
+
+#endif
