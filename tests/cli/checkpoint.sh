@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# A long table is saved every half minute: what is killed without warning can go on from there.
+. "$(dirname "$0")/lib.sh"
+
+args=(table "$MODELS/gnss.obj" -o t.nc --step 1 --method raycast --grid 4096)
+last="srp ${args[*]}"
+"$SRP" "${args[@]}" > ../log/out 2> ../log/err &
+job=$!
+for ((second = 0; second < 90; ++second)); do
+    sleep 1
+    [ ! -e t.nc.partial ] || break
+done
+kill -KILL "$job"
+wait "$job" 2> /dev/null
+check 'nothing was saved within 90 s' test -e t.nc.partial
+check 'saved too early' test "$second" -ge 25
+
+timeout --foreground --preserve-status -s INT 5 "$SRP" "${args[@]}" > ../log/out 2> ../log/err
+[ $? -eq 130 ] || fail 'the second run did not end by SIGINT'
+says 'going on with t.nc.partial'
+says 'interrupted'
+rm -f t.nc.*.tmp # of the killed run, if it was just writing
+holds t.nc.partial
+finish

@@ -1,0 +1,119 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# srp info: the report, its findings, its JSON.
+. "$(dirname "$0")/lib.sh"
+
+expect 0 info "$MODELS/cube.obj"
+silent
+prints 'cube.obj: 8 vertices, 12 triangles'
+prints '2 x 2 x 2 m, from (-1, -1, -1) to (1, 1, 1)'
+prints '24 m^2'
+prints '8 m^3 in closed components'
+prints 'Nothing to complain about.'
+grep -Eq '^surface +24 +100.0% +0.5 +0.1 +.*models/cube.mtl$' ../log/out || fail 'row of the material'
+
+# Several files are joined; units scale; --material wins and says so.
+expect 0 info "$MODELS/cube.obj" "$MODELS/icosphere-80.obj"
+prints 'cube.obj: 8 vertices, 12 triangles'
+prints 'icosphere-80.obj: 42 vertices, 80 triangles'
+prints '50 vertices, 92 triangles'
+expect 0 info "$MODELS/cube.obj" --unit ft
+prints '0.6096 x 0.6096 x 0.6096 m'
+expect 0 info "$MODELS/cube.obj" --unit 2.5
+prints '5 x 5 x 5 m'
+expect 0 info "$MODELS/cube.obj" --material surface=0.25,0.125,one-sided
+grep -Eq '^surface .* 0.25 +0.125 +--material \(one-sided\)$' ../log/out || fail '--material wins'
+expect 0 info "$MODELS/cube.obj" --material surfaec=0,0
+prints "no face has the material 'surfaec' of --material; did you mean 'surface'?"
+
+# A guess at the unit.
+expect 0 info "$MODELS/cube.obj" --unit 1000
+prints 'in millimetres it would be 2 m (--unit mm)'
+expect 0 info "$MODELS/cube.obj" --unit 100
+prints 'in centimetres it would be 2 m (--unit cm)'
+expect 0 info "$MODELS/cube.obj" --unit mm
+prints 'less than any spacecraft: check --unit'
+
+# Findings: everything wrong at once.
+cat > bad.obj <<'END'
+mtllib absent.mtl
+usemtl gold
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 5 0 0
+v 6 0 0
+v 6 1 0
+v 2 2 2
+f 1 2 3 4
+f 5 6 7
+f 5 6 7
+f 7 6 5
+f 1 8 8
+END
+expect 0 info bad.obj
+prints 'open edges'
+prints 'repeat another one with the same winding'
+prints 'back to back with another one'
+prints 'faces are mixed'
+prints 'the MTL file absent.mtl does not exist'
+prints "the material 'gold' has no optics: give --material 'gold=RHO_S,RHO_D'"
+expect 0 info bad.obj --json
+prints '"kind": "open-edges"'
+prints '"kind": "missing-mtl"'
+prints '"kind": "no-optics"'
+prints '"rho_s": null'
+prints '"source": null'
+
+# An MTL that is there and wrong is an error, with its place.
+printf 'newmtl gold\nrho_s 0.9\nrho_d 0.2\n' > absent.mtl
+expect 1 info bad.obj
+says 'absent.mtl:'
+expect 0 info bad.obj --material gold=0.9,0.1
+
+expect 1 info "$MODELS/none.obj"
+says 'none.obj: cannot open: No such file or directory'
+expect 1 info .
+says 'is a directory, expected a file'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n' > index.obj
+expect 1 info index.obj
+says 'index.obj:4:7: '
+
+# Two files with other optics for the same name.
+sed 's/cube.mtl/a.mtl/' "$MODELS/cube.obj" > a.obj
+sed 's/cube.mtl/b.mtl/' "$MODELS/cube.obj" > b.obj
+printf 'newmtl surface\nrho_s 0.1\nrho_d 0.1\n' > a.mtl
+printf 'newmtl surface\nrho_s 0.2\nrho_d 0.1\n' > b.mtl
+expect 0 info a.obj b.obj
+prints "several MTL files have different optics for the material 'surface': those of b.mtl are taken"
+# ... and a scene takes them from there, too.
+expect 0 force a.obj b.obj --az 0 --el 0 --basis
+prints 'surface: rho_s 0.2'
+
+# JSON of a sound model.
+expect 0 info "$MODELS/box-wing.obj" --json
+prints '"triangles": 60,'
+prints '"name": "panel_back"'
+prints '"findings": []'
+
+# Plates.
+expect 0 info --plates "$MODELS/cube.plates"
+prints '6 plates, 24 m^2'
+expect 0 info --plates "$MODELS/cube.plates" --json
+prints '"area_m2": 4,'
+printf '2\n1 0 0 1 0 0\n' > short.plates
+expect 1 info --plates short.plates
+says 'short.plates'
+
+# The Lunar Reconnaissance Orbiter as it comes: open, without MTL, mixed polygons.
+if [ -r "$SHARED/lro/bus.obj" ]; then
+    expect 0 info "$SHARED/lro/bus.obj"
+    prints 'open edges'
+    prints 'bus.mtl does not exist'
+    prints 'faces are mixed'
+    prints "the material 'foil_gold' has no optics"
+else
+    skip 'no LRO model in the shared data'
+fi
+finish

@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The installed program finds its library, wherever the tree is moved; man page and completion are
+# where their readers look.
+. "$(dirname "$0")/lib.sh"
+
+last="cmake --install $BUILD"
+cmake --install "$BUILD" --prefix "$PWD/first" > ../log/out 2> ../log/err || fail 'cannot install'
+mv first moved
+check 'no man page' test -s moved/share/man/man1/srp.1
+check 'no completion' test -s moved/share/bash-completion/completions/srp
+SRP=$PWD/moved/bin/srp
+expect 0 --version
+expect 0 force "$MODELS/cube.obj" --az 0 --el 0
+last='ldd moved/bin/srp'
+if command -v ldd > /dev/null; then
+    ldd moved/bin/srp > ../log/out
+    prints "$PWD/moved/"
+    prints_not 'libgsl' # srp is Apache-2.0
+fi
+finish

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Outputs that cannot be written: status 3, before the computing where that can be known, and no
+# half-written file.
+. "$(dirname "$0")/lib.sh"
+
+cube=$MODELS/cube.obj
+table=(table "$cube" --step 30)
+
+expect 3 "${table[@]}" -o none/a.nc
+says 'none/a.nc: cannot write: No such file or directory'
+mkdir dir.nc
+expect 3 "${table[@]}" -o dir.nc
+says 'dir.nc: cannot write: is a directory'
+touch file
+expect 3 "${table[@]}" -o file/a.spo
+says 'file/a.spo: cannot write: Not a directory'
+rmdir dir.nc
+rm file
+
+# All outputs are checked first: the good one is not written.
+expect 3 "${table[@]}" -o good.nc -o none/a.spo
+holds
+
+if [ "$(id -u)" -ne 0 ]; then
+    mkdir locked
+    chmod a-w locked
+    expect 3 "${table[@]}" -o locked/a.nc
+    says 'locked/a.nc: cannot write: Permission denied'
+    rmdir locked
+else
+    skip 'root may write everywhere'
+fi
+
+# A full disk shows only when writing. What was computed is kept; the command again writes it.
+if [ -c /dev/full ]; then
+    for ending in nc spo txt; do
+        ln -s /dev/full "full.$ending"
+        expect 3 "${table[@]}" -o "full.$ending" -o good.spo --mass 10
+        says "full.$ending"
+        says 'to go on'
+        holds "full.$ending" "full.$ending.partial" good.spo
+        rm "full.$ending" good.spo
+        expect 0 "${table[@]}" -o "full.$ending" -o good.spo --mass 10
+        says 'going on with'
+        holds "full.$ending" good.spo
+        rm "full.$ending" good.spo
+        expect 0 "${table[@]}" -o good.nc
+        ln -s /dev/full "full.$ending"
+        expect 3 convert good.nc "full.$ending" --mass 10
+        rm "full.$ending" good.nc
+        holds
+    done
+else
+    skip 'no /dev/full'
+fi
+
+# An old file stays as it was until the new one is whole; then it is replaced.
+echo old > a.spo
+expect 1 table none.obj -o a.spo
+[ "$(cat a.spo)" = old ] || fail 'a failed run touched the old file'
+expect 0 "${table[@]}" -o a.spo
+grep -q '^Motion' a.spo || fail 'the old file was not replaced'
+holds a.spo
+finish

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+# Rules of the house that a compiler does not know (CONTRIBUTING.md).
+#   cmake -D ROOT=... -P rules.cmake
+
+# Fails on lines of `files` that match `pattern`; `why` is the rule.
+function(forbid pattern why)
+  foreach(file IN LISTS ARGN)
+    file(STRINGS ${file} hits REGEX "${pattern}")
+    foreach(hit IN LISTS hits)
+      file(RELATIVE_PATH name ${ROOT} ${file})
+      message(SEND_ERROR "${name}: ${why}\n  ${hit}")
+    endforeach()
+  endforeach()
+endfunction()
+
+file(GLOB core ${ROOT}/srpcore/src/*.[ch] ${ROOT}/srpcore/include/srp/*.h)
+set(portable ${core})
+list(FILTER portable EXCLUDE REGEX "/platform\\.c$")
+list(LENGTH core count)
+if(count LESS 20)
+  message(FATAL_ERROR "only ${count} files of srpcore found, the check is blind")
+endif()
+
+forbid("^ *# *include *[<\"](apps|gl|orbit|plugin|bench|models|tests)/"
+       "srpcore depends on nothing above it" ${core})
+forbid("^ *# *include *<(gsl|GL|EGL|embree[0-9]*|mpi)[/.]"
+       "srpcore links neither GSL nor a graphics library" ${core})
+forbid("^ *# *include *<(unistd|fcntl|dirent|pthread|signal|dlfcn|sched|locale|xlocale|sys/[a-z]+)\\.h>"
+       "what only POSIX or glibc has is in platform.c" ${portable})
+forbid("(^|[^a-z_])(printf|puts|putchar|perror|exit|abort|_Exit|assert) *\\("
+       "a library does not print or end the program" ${core})
+forbid("(^|[^a-z_/])(std(out|err))([^a-z_]|$)" "a library does not print" ${core})
+
+file(GLOB_RECURSE sources
+  ${ROOT}/srpcore/*.[ch] ${ROOT}/apps/*.[ch] ${ROOT}/bench/*.[ch] ${ROOT}/models/*.[ch]
+  ${ROOT}/tests/*.[ch] ${ROOT}/tests/*.cpp)
+foreach(file IN LISTS sources)
+  file(STRINGS ${file} head LIMIT_COUNT 1)
+  if(NOT head MATCHES "SPDX-License-Identifier: Apache-2.0")
+    file(RELATIVE_PATH name ${ROOT} ${file})
+    message(SEND_ERROR "${name}: the first line does not name the licence")
+  endif()
+endforeach()
+list(LENGTH sources count)
+message(STATUS "${count} source files follow the rules")
