@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* OBJ text to mesh, on to its report and a scene. */
+/* OBJ text to mesh, on to its report, a scene, and the light on it. */
 #include "fuzz.h"
 
+#include <srp/method.h>
 #include <srp/scene.h>
 
 #include <math.h>
@@ -51,6 +52,26 @@ static void check_report(const srp_mesh *mesh) {
     REQUIRE(report.box_min.x <= report.box_max.x);
 }
 
+/* Whatever mesh a scene accepts, light on it is finite, and no more than the model can stop. */
+static void check_light(const srp_scene *scene) {
+    static const srp_vec3 SUNS[2] = {{1.0, 0.0, 0.0}, {0.48, -0.6, 0.64}};
+    srp_method_params params = srp_method_params_default();
+    srp_prepared *prepared;
+    srp_response responses[2];
+    srp_error error;
+    params.threads = 1;
+    REQUIRE(srp_method_prepare(&srp_method_exact, scene, &params, &prepared, &error) == SRP_OK);
+    REQUIRE(srp_prepared_respond(prepared, 2, SUNS, responses, NULL, &error) == SRP_OK);
+    double radius = srp_scene_radius(scene);
+    for (int k = 0; k < 2; ++k) {
+        double most = 4.0 * radius * radius; /* of a square that holds the silhouette */
+        REQUIRE(responses[k].lit_area >= -1e-9 * most && responses[k].lit_area <= 1.001 * most);
+        REQUIRE(srp_vec3_norm(responses[k].f) <= 2.002 * most);
+        REQUIRE(srp_vec3_norm(responses[k].t) <= 2.002 * most * radius);
+    }
+    srp_prepared_release(prepared);
+}
+
 static void check_scene(const srp_mesh *mesh) {
     srp_materials *materials;
     srp_scene *scene;
@@ -60,9 +81,15 @@ static void check_scene(const srp_mesh *mesh) {
         REQUIRE(srp_materials_set(materials, srp_mesh_material_name(mesh, i),
                                   (srp_optics){0.5, 0.25, false}, false, &error) == SRP_OK);
     }
-    REQUIRE(srp_scene_from_mesh(mesh, materials, &scene, &error) == SRP_OK);
-    REQUIRE(srp_scene_facet_count(scene) > 0);
-    srp_scene_destroy(scene);
+    srp_status status = srp_scene_from_mesh(mesh, materials, &scene, &error);
+    if (status == SRP_OK) {
+        REQUIRE(srp_scene_facet_count(scene) > 0);
+        check_light(scene);
+        srp_scene_destroy(scene);
+    } else {
+        /* Too large, or too far from the origin for the size of its faces. */
+        REQUIRE(status == SRP_BAD_DATA && error.message[0] != '\0');
+    }
     srp_materials_destroy(materials);
 }
 
