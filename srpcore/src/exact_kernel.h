@@ -3,9 +3,20 @@
 #ifndef SRP_SRC_EXACT_KERNEL_H
 #define SRP_SRC_EXACT_KERNEL_H
 
+#include "exact_visible.h"
 #include "method_internal.h"
+#include "scene_internal.h"
 
 /* Its `prepared` is one of srp_method_exact. */
 extern const srp_direction_kernel srp_exact_kernel;
+
+/* Adds sunlit parts to the (material count + 1) sums. */
+static inline void srp_exact_add_lit(const srp_scene *scene, srp_vec3 reference, const srp_lit *lit,
+                                     srp_basis *basis) {
+    uint32_t material = scene->facets[lit->facet].material;
+    bool absorbs = lit->back && scene->optics[material].one_sided;
+    srp_basis_add(&basis[absorbs ? scene->material_count : material], lit->area, lit->cosine,
+                  lit->normal, srp_vec3_sub(lit->centroid, reference));
+}
 
 #endif

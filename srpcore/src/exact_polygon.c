@@ -68,8 +68,7 @@ static void cut(const srp_polygon *polygon, double slack, const double *value, s
     }
 }
 
-/* The box of a polygon, each side rounded to the nearest float. */
-static srp_box2 box_of(const srp_polygon *polygon) {
+srp_box2 srp_polygon_box(const srp_polygon *polygon) {
     double x0 = polygon->p[0].x, y0 = polygon->p[0].y, x1 = x0, y1 = y0;
     for (uint32_t k = 1; k < polygon->count; ++k) {
         double x = polygon->p[k].x, y = polygon->p[k].y;
@@ -82,7 +81,7 @@ static srp_box2 box_of(const srp_polygon *polygon) {
 }
 
 static void set_piece(srp_piece *piece, const srp_polygon *polygon) {
-    srp_box2 box = box_of(polygon);
+    srp_box2 box = srp_polygon_box(polygon);
     piece->x0 = box.x0;
     piece->y0 = box.y0;
     piece->x1 = box.x1;
@@ -135,7 +134,7 @@ static srp_status push_small_pieces(srp_visible_scratch *scratch, const srp_poly
  * place; sets *hidden when nothing remains. */
 static srp_status take_from_piece(srp_visible_scratch *scratch, size_t index,
                                   const srp_occluder *occluder, bool *hidden) {
-    srp_polygon outside[4], buffer[2];
+    srp_polygon outside[SRP_OCCLUDER_LINES], buffer[2];
     double value[SRP_POLYGON_ROOM];
     uint32_t outside_count = 0;
     const srp_polygon *inside = &scratch->piece[index].polygon;
@@ -208,6 +207,40 @@ static void measure(const srp_polygon *polygon, srp_moments *sum) {
     sum->y += y + area * polygon->p[0].y;
 }
 
+bool srp_polygon_keep(srp_polygon *polygon, const srp_occluder *inside) {
+    double value[SRP_POLYGON_ROOM];
+    srp_polygon in, out;
+    for (uint32_t k = 0; k < inside->line_count; ++k) {
+        side where = side_of(polygon, &inside->line[k], value);
+        if (where == SIDE_OUTSIDE) {
+            return false;
+        }
+        if (where == SIDE_BOTH) {
+            cut(polygon, inside->line[k].slack, value, &in, &out);
+            copy_polygon(polygon, &in);
+        }
+    }
+    return true;
+}
+
+/* Puts the pieces that are left away for the caller. */
+static srp_status keep_pieces(srp_visible_scratch *scratch) {
+    size_t count = scratch->kept_count + scratch->piece_count;
+    if (count > scratch->kept_capacity) {
+        size_t capacity = 2 * count + 32;
+        srp_polygon *larger = realloc(scratch->kept, capacity * sizeof *larger);
+        if (larger == NULL) {
+            return SRP_NO_MEMORY;
+        }
+        scratch->kept = larger;
+        scratch->kept_capacity = capacity;
+    }
+    for (size_t i = 0; i < scratch->piece_count; ++i) {
+        copy_polygon(&scratch->kept[scratch->kept_count++], &scratch->piece[i].polygon);
+    }
+    return SRP_OK;
+}
+
 static srp_status visible_in_turn(srp_visible_scratch *scratch, const srp_polygon *polygon,
                                   const srp_occluder *occluders, size_t first, size_t count,
                                   srp_moments *out) {
@@ -220,12 +253,12 @@ static srp_status visible_in_turn(srp_visible_scratch *scratch, const srp_polygo
     for (size_t i = 0; i < scratch->piece_count && status == SRP_OK; ++i) {
         measure(&scratch->piece[i].polygon, out);
     }
-    return status;
+    return status == SRP_OK && scratch->keep ? keep_pieces(scratch) : status;
 }
 
 /* A line across the longer side of the polygon's box, through the middle of the occluders there. */
 static srp_line2 dividing_line(const srp_polygon *polygon, const srp_box2 *list, size_t count) {
-    srp_box2 box = box_of(polygon);
+    srp_box2 box = srp_polygon_box(polygon);
     bool along_x = box.x1 - box.x0 >= box.y1 - box.y0;
     float low = along_x ? box.x0 : box.y0, high = along_x ? box.x1 : box.y1, sum = 0.0f;
     for (size_t k = 0; k < count; ++k) {
@@ -257,7 +290,7 @@ static side side_of_occluder(const srp_polygon *polygon, const srp_occluder *occ
  * dishes, all of them everywhere. */
 static size_t select_for(srp_box2 *list, size_t count, const srp_polygon *half,
                          const srp_occluder *occluders, bool *hidden) {
-    srp_box2 box = box_of(half);
+    srp_box2 box = srp_polygon_box(half);
     size_t kept = 0;
     *hidden = false;
     for (size_t k = 0; k < count; ++k) {
@@ -310,15 +343,11 @@ static srp_status visible_divided(srp_visible_scratch *scratch, const srp_polygo
 
 srp_status srp_polygon_visible(srp_visible_scratch *scratch, const srp_polygon *polygon,
                                const srp_occluder *occluders, size_t count, srp_moments *out) {
-    srp_moments sum = {0.0, 0.0, 0.0};
-    srp_status status = visible_divided(scratch, polygon, occluders, 0, count, 0, &sum);
-    if (status == SRP_OK) {
-        *out = sum;
-    }
-    return status;
+    return visible_divided(scratch, polygon, occluders, 0, count, 0, out);
 }
 
 void srp_visible_scratch_free(srp_visible_scratch *scratch) {
     free(scratch->lists.item);
     free(scratch->piece);
+    free(scratch->kept);
 }

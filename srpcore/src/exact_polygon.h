@@ -33,7 +33,7 @@ static inline double srp_line2_value(const srp_line2 *line, srp_point2 p) {
 }
 
 /* Room in a polygon, and the size above which one is kept as two: a cut adds one corner, an
- * occluder makes at most four cuts. */
+ * occluder makes at most five cuts. */
 enum { SRP_POLYGON_ROOM = 16, SRP_POLYGON_KEPT = 8 };
 
 /* Convex, counter-clockwise; empty when count is 0. */
@@ -42,9 +42,10 @@ typedef struct srp_polygon {
     srp_point2 p[SRP_POLYGON_ROOM];
 } srp_polygon;
 
-/* What one face hides: the common inside of up to four lines. */
+/* What one face hides: the common inside of up to five lines. */
+enum { SRP_OCCLUDER_LINES = 5 };
 typedef struct srp_occluder {
-    srp_line2 line[4];
+    srp_line2 line[SRP_OCCLUDER_LINES];
     uint32_t line_count;
 } srp_occluder;
 
@@ -60,17 +61,28 @@ typedef struct srp_piece {
 } srp_piece;
 
 /* Memory of srp_polygon_visible(): zero-initialise, reuse, free. `lists` is filled by the caller:
- * the box of every occluder, `id` its index, widened by the rounding of two numbers to float. */
+ * the box of every occluder, `id` its index, widened by the rounding of two numbers to float. With
+ * `keep`, what is left is added to `kept`. */
 typedef struct srp_visible_scratch {
     srp_box_stack lists;
     srp_piece *piece;
     size_t piece_count, piece_capacity;
+    bool keep;
+    srp_polygon *kept;
+    size_t kept_count, kept_capacity;
 } srp_visible_scratch;
 
 void srp_visible_scratch_free(srp_visible_scratch *scratch);
 
+/* The box of a polygon with corners, each side rounded to the nearest float. */
+srp_box2 srp_polygon_box(const srp_polygon *polygon);
+
+/* Keeps of a polygon of up to SRP_POLYGON_KEPT corners what is inside; false when that is nothing.
+ */
+bool srp_polygon_keep(srp_polygon *polygon, const srp_occluder *inside);
+
 /*
- * Measures what is left of `polygon` when the insides of `count` occluders are taken away, the
+ * Adds to *out what is left of `polygon` when the insides of `count` occluders are taken away, the
  * boxes of which are the first of scratch->lists. SRP_OK or SRP_NO_MEMORY.
  */
 srp_status srp_polygon_visible(srp_visible_scratch *scratch, const srp_polygon *polygon,
