@@ -66,21 +66,10 @@ static double coordinate_of(const srp_bounce_wave *wave, const srp_bounce_path *
     return srp_seed_unit(at);
 }
 
-/* ---- directions ---- */
-
-static srp_vec3 mirrored(srp_vec3 direction, srp_vec3 normal) {
-    return srp_vec3_add_scaled(direction, -2.0 * srp_vec3_dot(direction, normal), normal);
-}
-
 /* ---- what a facet does to light ---- */
-
-static bool absorbs(const srp_scene *scene, uint32_t facet, bool back) {
-    return back && scene->optics[scene->facets[facet].material].one_sided;
-}
 
 static arrival arrive(const srp_scene *scene, const srp_bounce_path *path, uint32_t bounces,
                       uint32_t facet, bool back) {
-    static const srp_optics BLACK = {0.0, 0.0, false};
     arrival at;
     memset(&at, 0, sizeof at);
     at.path = path;
@@ -88,16 +77,8 @@ static arrival arrive(const srp_scene *scene, const srp_bounce_path *path, uint3
     at.facet = facet;
     at.back = back;
     at.normal = srp_vec3_scale(back ? -1.0 : 1.0, scene->facets[facet].normal);
-    at.optics = absorbs(scene, facet, back) ? BLACK : scene->optics[scene->facets[facet].material];
+    at.optics = srp_bounce_optics(scene, facet, back);
     return at;
-}
-
-/* Push of a bundle on the facet that it hits (docs/theory.md, "Reflected light"). */
-static srp_vec3 push_of(const arrival *at) {
-    double facing = fabs(srp_vec3_dot(at->normal, at->direction));
-    double inwards = 2.0 * (at->optics.rho_s * facing + at->optics.rho_d / 3.0);
-    srp_vec3 push = srp_vec3_scale(1.0 - at->optics.rho_s, at->direction);
-    return srp_vec3_scale(at->path->flux, srp_vec3_add_scaled(push, -inwards, at->normal));
 }
 
 static void tell(const srp_bounce_wave *wave, srp_bounce_step step, const arrival *at, double flux,
@@ -110,23 +91,8 @@ static void tell(const srp_bounce_wave *wave, srp_bounce_step step, const arriva
 
 static void tell_loss(const srp_bounce_wave *wave, srp_bounce_step step, const arrival *at) {
     const srp_vec3 none = {0.0, 0.0, 0.0};
-    tell(wave, step, at, at->path->flux * at->optics.rho_s, mirrored(at->direction, at->normal),
-         none);
-}
-
-static bool is_blind(const srp_bounce_world *world, uint32_t facet, bool back) {
-    return (world->sight[facet] & (back ? SRP_SIGHT_BACK : SRP_SIGHT_FRONT)) == 0;
-}
-
-/* The share of what reaches a facet that is followed from it. */
-static double followed_share(const srp_bounce_world *world, srp_optics optics) {
-    return optics.rho_s + (world->diffuse > 0 ? optics.rho_d : 0.0);
-}
-
-bool srp_bounce_starts(const srp_bounce_world *world, uint32_t facet, bool back) {
-    srp_optics optics = world->scene->optics[world->scene->facets[facet].material];
-    return !is_blind(world, facet, back) && !absorbs(world->scene, facet, back) &&
-           followed_share(world, optics) > 0.0;
+    tell(wave, step, at, at->path->flux * at->optics.rho_s,
+         srp_bounce_mirrored(at->direction, at->normal), none);
 }
 
 static void add_ray(srp_bounce_wave *wave, const arrival *at, srp_vec3 direction, double share,
@@ -152,7 +118,7 @@ static void add_scattered(srp_bounce_wave *wave, const arrival *at, double share
 /* All that light does that has met mirrors only. */
 static void split(srp_bounce_wave *wave, const arrival *at) {
     if (at->optics.rho_s > 0.0) {
-        add_ray(wave, at, mirrored(at->direction, at->normal), at->optics.rho_s,
+        add_ray(wave, at, srp_bounce_mirrored(at->direction, at->normal), at->optics.rho_s,
                 SRP_BOUNCE_SPECULAR, at->path->ray);
     }
     uint32_t diffuse = wave->world->diffuse;
@@ -172,7 +138,7 @@ static void split(srp_bounce_wave *wave, const arrival *at) {
 static void choose(srp_bounce_wave *wave, const arrival *at) {
     double share = at->optics.rho_s + at->optics.rho_d;
     if (coordinate_of(wave, at->path, at->bounces, CHOICE) * share < at->optics.rho_s) {
-        add_ray(wave, at, mirrored(at->direction, at->normal), share, SRP_BOUNCE_DIFFUSE,
+        add_ray(wave, at, srp_bounce_mirrored(at->direction, at->normal), share, SRP_BOUNCE_DIFFUSE,
                 at->path->ray);
     } else {
         add_scattered(wave, at, share, at->path->ray);
@@ -181,14 +147,14 @@ static void choose(srp_bounce_wave *wave, const arrival *at) {
 
 static void reflect(srp_bounce_wave *wave, const arrival *at) {
     const srp_bounce_world *world = wave->world;
-    double share = followed_share(world, at->optics);
+    double share = srp_bounce_share(world, at->optics);
     if (share == 0.0) {
         return;
     }
-    if (is_blind(world, at->facet, at->back)) {
+    if (srp_bounce_is_blind(world, at->facet, at->back)) {
         tell_loss(wave, SRP_BOUNCE_ESCAPES, at);
     } else if (at->bounces == world->reflections) {
-        wave->sums->unresolved += at->path->flux * share;
+        wave->sums->unresolved[at->path->kind] += at->path->flux * share;
         tell_loss(wave, SRP_BOUNCE_IS_CUT, at);
     } else if (at->path->kind == SRP_BOUNCE_SPECULAR) {
         split(wave, at);
@@ -269,7 +235,7 @@ static void land(srp_bounce_wave *wave, size_t n, uint32_t bounces) {
     arrival at = arrive(wave->world->scene, path, bounces, hit->facet, hit->back);
     at.direction = ray->direction;
     at.point = srp_vec3_add_scaled(ray->origin, hit->t, ray->direction);
-    srp_vec3 push = push_of(&at);
+    srp_vec3 push = srp_bounce_push(at.optics, at.normal, at.direction, path->flux);
     srp_bounce_sum *sum = &wave->sums->group[group_of(path->i, path->j)][path->kind];
     srp_vec3 lever = srp_vec3_sub(at.point, wave->world->reference);
     sum->f = srp_vec3_add(sum->f, push);
@@ -315,23 +281,18 @@ void srp_bounce_sums_add(srp_bounce_sums *into, const srp_bounce_sums *from) {
             add_sum(&into->group[g][k], &from->group[g][k]);
         }
     }
-    into->unresolved += from->unresolved;
+    for (int k = 0; k < SRP_BOUNCE_KINDS; ++k) {
+        into->unresolved[k] += from->unresolved[k];
+    }
     into->rays += from->rays;
 }
 
-static srp_bounce_sum total_of(const srp_bounce_sums *sums, int kind) {
+srp_bounce_sum srp_bounce_sums_total(const srp_bounce_sums *sums, srp_bounce_kind kind) {
     srp_bounce_sum total;
     memset(&total, 0, sizeof total);
     for (int g = 0; g < SRP_BOUNCE_GROUPS; ++g) {
         add_sum(&total, &sums->group[g][kind]);
     }
-    return total;
-}
-
-srp_bounce_sum srp_bounce_sums_total(const srp_bounce_sums *sums) {
-    srp_bounce_sum total = total_of(sums, SRP_BOUNCE_SPECULAR);
-    srp_bounce_sum diffuse = total_of(sums, SRP_BOUNCE_DIFFUSE);
-    add_sum(&total, &diffuse);
     return total;
 }
 
@@ -351,9 +312,9 @@ static void add_deviation(variance *into, double weight, double count, const srp
 
 /* The groups as independent replicates: the variance of the sum of n of them is n / (n - 1) times
  * their summed squared distances from the mean. */
-static void add_scatter(const srp_bounce_sums *sums, int kind, variance *into) {
+static void add_scatter(const srp_bounce_sums *sums, srp_bounce_kind kind, variance *into) {
     const double n = SRP_BOUNCE_GROUPS;
-    srp_bounce_sum total = total_of(sums, kind);
+    srp_bounce_sum total = srp_bounce_sums_total(sums, kind);
     for (int g = 0; g < SRP_BOUNCE_GROUPS; ++g) {
         add_deviation(into, 1.0 / (n * (n - 1.0)), n, &sums->group[g][kind], &total);
     }
@@ -366,9 +327,9 @@ static const double WEIGHT_4 = 1.0 / 81.0;
 
 /* Light that has met mirrors only errs as first hits do: by where edges run through cells. The
  * groups are then lattices of four times the pitch, by fours of twice the pitch. */
-static void add_coarseness(const srp_bounce_sums *sums, int kind, variance *into) {
+static void add_coarseness(const srp_bounce_sums *sums, srp_bounce_kind kind, variance *into) {
     const double n = SRP_BOUNCE_GROUPS;
-    srp_bounce_sum total = total_of(sums, kind);
+    srp_bounce_sum total = srp_bounce_sums_total(sums, kind);
     srp_bounce_sum four[4];
     memset(four, 0, sizeof four);
     for (int g = 0; g < SRP_BOUNCE_GROUPS; ++g) {
@@ -381,15 +342,14 @@ static void add_coarseness(const srp_bounce_sums *sums, int kind, variance *into
     }
 }
 
-void srp_bounce_sums_error(const srp_bounce_sums *sums, bool turned, double *f_error,
-                           double *t_error) {
-    variance sum = {0.0, 0.0};
-    if (turned) {
-        add_coarseness(sums, SRP_BOUNCE_SPECULAR, &sum);
+void srp_bounce_sums_variance(const srp_bounce_sums *sums, srp_bounce_kind kind, bool turned,
+                              double *f_variance, double *t_variance) {
+    variance sum = {*f_variance, *t_variance};
+    if (turned && kind == SRP_BOUNCE_SPECULAR) {
+        add_coarseness(sums, kind, &sum);
     } else {
-        add_scatter(sums, SRP_BOUNCE_SPECULAR, &sum);
+        add_scatter(sums, kind, &sum);
     }
-    add_scatter(sums, SRP_BOUNCE_DIFFUSE, &sum);
-    *f_error = sqrt(sum.f);
-    *t_error = sqrt(sum.t);
+    *f_variance = sum.f;
+    *t_variance = sum.t;
 }

@@ -24,9 +24,11 @@
 #include "bvh.h"
 #include "guide.h"
 #include "scene_internal.h"
+#include "sight.h"
 
 #include <srp/vec3.h>
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -49,8 +51,8 @@ typedef struct srp_bounce_sum {
 
 typedef struct srp_bounce_sums {
     srp_bounce_sum group[SRP_BOUNCE_GROUPS][SRP_BOUNCE_KINDS];
-    double unresolved; /* flux of paths that were cut [m^2] */
-    uint64_t rays;     /* traced */
+    double unresolved[SRP_BOUNCE_KINDS]; /* flux of paths that were cut [m^2] */
+    uint64_t rays;                       /* traced */
 } srp_bounce_sums;
 
 /* Steps of a path, told to tests. */
@@ -83,8 +85,41 @@ typedef struct srp_bounce_world {
     void *user;
 } srp_bounce_world;
 
+/* What light meets on this side of a facet. */
+static inline srp_optics srp_bounce_optics(const srp_scene *scene, uint32_t facet, bool back) {
+    srp_optics optics = scene->optics[scene->facets[facet].material];
+    return back && optics.one_sided ? (srp_optics){0.0, 0.0, true} : optics;
+}
+
+/* Whether light that leaves this side of a facet is known to hit nothing. */
+static inline bool srp_bounce_is_blind(const srp_bounce_world *world, uint32_t facet, bool back) {
+    return (world->sight[facet] & (back ? SRP_SIGHT_BACK : SRP_SIGHT_FRONT)) == 0;
+}
+
+/* The share of what reaches a facet that is followed from it. */
+static inline double srp_bounce_share(const srp_bounce_world *world, srp_optics optics) {
+    return optics.rho_s + (world->diffuse > 0 ? optics.rho_d : 0.0);
+}
+
 /* Whether light that hits this side of a facet first has a bounce to follow. */
-bool srp_bounce_starts(const srp_bounce_world *world, uint32_t facet, bool back);
+static inline bool srp_bounce_starts(const srp_bounce_world *world, uint32_t facet, bool back) {
+    return !srp_bounce_is_blind(world, facet, back) &&
+           srp_bounce_share(world, srp_bounce_optics(world->scene, facet, back)) > 0.0;
+}
+
+/* Push of a bundle that travels along `direction` on the facet that it hits, `normal` turned to it
+ * (docs/theory.md, "Reflected light"). */
+static inline srp_vec3 srp_bounce_push(srp_optics optics, srp_vec3 normal, srp_vec3 direction,
+                                       double flux) {
+    double facing = fabs(srp_vec3_dot(normal, direction));
+    double inwards = 2.0 * (optics.rho_s * facing + optics.rho_d / 3.0);
+    srp_vec3 push = srp_vec3_scale(1.0 - optics.rho_s, direction);
+    return srp_vec3_scale(flux, srp_vec3_add_scaled(push, -inwards, normal));
+}
+
+static inline srp_vec3 srp_bounce_mirrored(srp_vec3 direction, srp_vec3 normal) {
+    return srp_vec3_add_scaled(direction, -2.0 * srp_vec3_dot(direction, normal), normal);
+}
 
 typedef struct srp_bounce_path srp_bounce_path;
 
@@ -123,11 +158,11 @@ void srp_bounce_wave_finish(srp_bounce_wave *wave);
 
 /* Adds `from`. */
 void srp_bounce_sums_add(srp_bounce_sums *into, const srp_bounce_sums *from);
-/* Bounce part of f and t. */
-srp_bounce_sum srp_bounce_sums_total(const srp_bounce_sums *sums);
-/* Standard errors of its f and t, one-sigma roots of the summed variances. `turned`: the lattice
- * was shifted at random against the model. */
-void srp_bounce_sums_error(const srp_bounce_sums *sums, bool turned, double *f_error,
-                           double *t_error);
+/* What light of one kind adds to f and t. */
+srp_bounce_sum srp_bounce_sums_total(const srp_bounce_sums *sums, srp_bounce_kind kind);
+/* Adds the variances of f and t of that, summed over axes. `turned`: the lattice was shifted at
+ * random against the model. */
+void srp_bounce_sums_variance(const srp_bounce_sums *sums, srp_bounce_kind kind, bool turned,
+                              double *f_variance, double *t_variance);
 
 #endif

@@ -62,4 +62,18 @@ bool srp_bvh_hit(const srp_bvh *bvh, srp_vec3 origin, srp_vec3 direction, uint32
  * loaded. hits[k] is what rays[k] hits. Any thread, on the calling one. */
 void srp_bvh_hit_many(const srp_bvh *bvh, size_t count, const srp_ray *rays, srp_hit *hits);
 
+/* All p with normal.p <= level [m], body frame. */
+typedef struct srp_half_space {
+    srp_vec3 normal; /* finite; of any length */
+    double level;
+} srp_half_space;
+
+enum { SRP_HALF_SPACES_MAX = 8 };
+
+/* Puts all facets that may lie in every one of up to SRP_HALF_SPACES_MAX half-spaces into `facets`,
+ * which has room for all of the scene's; some that do not lie there may be among them. Their
+ * number. The order depends on the scene and the half-spaces alone. Any thread. */
+size_t srp_bvh_gather(const srp_bvh *bvh, const srp_half_space *spaces, size_t count,
+                      uint32_t *facets);
+
 #endif

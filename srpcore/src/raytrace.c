@@ -14,9 +14,9 @@
 
 #include "bounce.h"
 #include "error.h"
-#include "exact_kernel.h"
 #include "lattice.h"
 #include "method_internal.h"
+#include "mirrors.h"
 #include "raster_canvas.h"
 #include "scene_internal.h"
 #include "seed.h"
@@ -32,10 +32,10 @@ enum { SIDE_MAX = 32768, STRIPS = 16 };
 typedef struct raytrace {
     srp_prepared head;
     srp_scratch_pool pool;
-    srp_prepared *direct; /* the exact method */
     srp_raster_mesh mesh;
     srp_bounce_world world;
     bool reflects; /* some facet begins paths */
+    bool scatters; /* some facet begins diffuse paths that are followed */
 } raytrace;
 
 /* What one thread needs for a strip. */
@@ -46,8 +46,9 @@ typedef struct lane {
 
 typedef struct raytrace_scratch {
     srp_scratch head;
-    srp_scratch *direct;
     const raytrace *state;
+    srp_mirrors *mirrors; /* direct light too */
+    srp_mirrored mirrored;
     srp_raster_frame frame;
     uint64_t seed;                  /* of this direction */
     int32_t row_begin, row_end;     /* rows in which paths begin */
@@ -58,9 +59,7 @@ typedef struct raytrace_scratch {
 
 static void scratch_destroy(srp_scratch *scratch) {
     raytrace_scratch *own = (raytrace_scratch *)scratch;
-    if (own->direct != NULL) {
-        srp_exact_kernel.scratch_destroy(own->direct);
-    }
+    srp_mirrors_destroy(own->mirrors);
     srp_raster_frame_clear(&own->frame);
     for (int k = 0; k < own->lane_count; ++k) {
         srp_raster_canvas_clear(&own->lanes[k].canvas);
@@ -78,8 +77,8 @@ static srp_scratch *scratch_create(const srp_prepared *prepared) {
     }
     own->state = state;
     own->lane_count = count;
-    own->direct = srp_exact_kernel.scratch_create(state->direct);
-    if (own->direct == NULL ||
+    own->mirrors = srp_mirrors_create(&state->world);
+    if (own->mirrors == NULL ||
         (state->reflects && !srp_raster_frame_create(&own->frame, &state->mesh))) {
         scratch_destroy(&own->head);
         return NULL;
@@ -218,16 +217,45 @@ static void take_cut(const raytrace_scratch *own, srp_response *out) {
     }
 }
 
-static void take_sums(const raytrace_scratch *own, double incoming, srp_response *out) {
+/* Light of one kind by its samples. */
+typedef struct sampled {
+    srp_bounce_sum sum;
+    double unresolved, f_variance, t_variance;
+} sampled;
+
+static void add_samples(const raytrace_scratch *own, srp_bounce_kind kind, sampled *into) {
     const srp_bounce_sums *sums = &own->strips[0];
-    const srp_raster_frame *frame = &own->frame;
-    srp_bounce_sum total = srp_bounce_sums_total(sums);
-    out->f_bounce = total.f;
-    out->t_bounce = total.t;
-    out->unresolved = incoming > 0.0 ? sums->unresolved / incoming : 0.0;
-    srp_bounce_sums_error(sums, frame->kind == SRP_LATTICE_TURNED, &out->f_error, &out->t_error);
-    take_cut(own, out);
-    out->samples = (uint64_t)frame->lattice.columns * (uint64_t)frame->lattice.rows + sums->rays;
+    srp_bounce_sum sum = srp_bounce_sums_total(sums, kind);
+    into->sum.f = srp_vec3_add(into->sum.f, sum.f);
+    into->sum.t = srp_vec3_add(into->sum.t, sum.t);
+    into->unresolved += sums->unresolved[kind];
+    srp_bounce_sums_variance(sums, kind, own->frame.kind == SRP_LATTICE_TURNED, &into->f_variance,
+                             &into->t_variance);
+}
+
+/* Mirrored light as it was solved, the rest as it was sampled. */
+static void take_sums(const raytrace_scratch *own, double incoming, srp_response *out) {
+    const srp_mirrored *mirrored = &own->mirrored;
+    sampled all = {.unresolved = 0.0};
+    if (mirrored->complete) {
+        all.sum = mirrored->sum;
+        all.unresolved = mirrored->unresolved;
+    } else {
+        add_samples(own, SRP_BOUNCE_SPECULAR, &all);
+    }
+    if (out->samples > 0) {
+        add_samples(own, SRP_BOUNCE_DIFFUSE, &all);
+    }
+    out->f_bounce = all.sum.f;
+    out->t_bounce = all.sum.t;
+    out->unresolved = incoming > 0.0 ? all.unresolved / incoming : 0.0;
+    out->f_error = sqrt(all.f_variance);
+    out->t_error = sqrt(all.t_variance);
+}
+
+static bool is_precise(const srp_method_params *params, srp_vec3 direct, const srp_response *out) {
+    double f = srp_vec3_norm(srp_vec3_add(direct, out->f_bounce));
+    return isinf(params->tolerance) || out->f_error <= params->tolerance * f;
 }
 
 /* Refines until the error is as asked. */
@@ -240,16 +268,19 @@ static srp_status trace_bounces(raytrace_scratch *own, srp_vec3 s, int parts, sr
     srp_basis_add_force(scene, own->head.basis, s, &f, &t);
     for (unsigned refine = 0;; ++refine) {
         set_up_frame(own, s, refine);
-        if (!find_rows(own)) {
-            take_cut(own, out);
-            return SRP_OK;
-        }
-        if (!trace_strips(own, parts)) {
-            return SRP_NO_MEMORY;
+        if (find_rows(own)) {
+            if (!trace_strips(own, parts)) {
+                return SRP_NO_MEMORY;
+            }
+            const srp_lattice *lattice = &own->frame.lattice;
+            out->samples =
+                (uint64_t)lattice->columns * (uint64_t)lattice->rows + own->strips[0].rays;
+        } else {
+            memset(&own->strips[0], 0, sizeof own->strips[0]);
         }
         take_sums(own, incoming, out);
-        double allowed = params->tolerance * srp_vec3_norm(srp_vec3_add(f, out->f_bounce));
-        if (isinf(params->tolerance) || out->f_error <= allowed) {
+        take_cut(own, out);
+        if (out->samples == 0 || is_precise(params, f, out)) {
             return SRP_OK;
         }
         if (!may_refine(params, &own->frame.lattice)) {
@@ -262,10 +293,18 @@ static srp_status trace_bounces(raytrace_scratch *own, srp_vec3 s, int parts, sr
 static srp_status respond_in_parts(srp_scratch *scratch, srp_vec3 s, srp_response *out, int parts) {
     raytrace_scratch *own = (raytrace_scratch *)scratch;
     const raytrace *state = own->state;
-    own->direct->basis = own->head.basis;
-    srp_status status = srp_exact_kernel.respond(state->direct, own->direct, s, out);
-    if (status == SRP_OK && state->reflects) {
+    srp_status status = srp_mirrors_respond(own->mirrors, s, state->head.params.mirrored_beams,
+                                            own->head.basis, &own->mirrored);
+    if (status != SRP_OK) {
+        return status;
+    }
+    if (!own->mirrored.complete) {
+        out->flags |= SRP_RESPONSE_MIRRORS_SAMPLED;
+    }
+    if (state->scatters || !own->mirrored.complete) {
         status = trace_bounces(own, s, parts, out);
+    } else {
+        take_sums(own, srp_basis_lit_area(state->head.scene, own->head.basis), out);
     }
     out->f = out->f_bounce;
     out->t = out->t_bounce;
@@ -291,7 +330,8 @@ static const srp_direction_kernel SHARED = {scratch_create, scratch_destroy, res
 static srp_status respond(const srp_prepared *prepared, size_t count, const srp_vec3 *s_body,
                           srp_response *responses, srp_basis *basis, srp_error *error) {
     raytrace *state = (raytrace *)prepared;
-    if (!state->reflects || count >= (size_t)prepared->params.threads) {
+    /* Few directions share the threads among their samples, where they are likely to have any. */
+    if (count >= (size_t)prepared->params.threads || (count > 1 && !state->scatters)) {
         return srp_respond_each(prepared, &ALONE, &state->pool, count, s_body, responses, basis,
                                 error);
     }
@@ -306,18 +346,22 @@ static void release(srp_prepared *prepared) {
     srp_guide_destroy(state->world.guide);
     srp_bvh_destroy(state->world.bvh);
     free(state->world.sight);
-    srp_prepared_release(state->direct);
     free(state);
 }
 
-static bool any_reflects(const srp_bounce_world *world) {
-    for (size_t k = 0; k < world->scene->facet_count; ++k) {
-        if (srp_bounce_starts(world, (uint32_t)k, false) ||
-            (!world->scene->facets[k].closed && srp_bounce_starts(world, (uint32_t)k, true))) {
-            return true;
+/* What the sides of facets begin. */
+static void look_at_facets(raytrace *state) {
+    const srp_bounce_world *world = &state->world;
+    for (uint32_t k = 0; k < world->scene->facet_count; ++k) {
+        int sides = world->scene->facets[k].closed ? 1 : 2;
+        for (int back = 0; back < sides; ++back) {
+            srp_optics optics = srp_bounce_optics(world->scene, k, back != 0);
+            bool starts = srp_bounce_starts(world, k, back != 0);
+            state->reflects = state->reflects || starts;
+            state->scatters = state->scatters || (starts && optics.rho_d > 0.0);
         }
     }
-    return false;
+    state->scatters = state->scatters && world->diffuse > 0 && world->reflections > 0;
 }
 
 static srp_status prepare_bounces(raytrace *state, srp_error *error) {
@@ -327,7 +371,7 @@ static srp_status prepare_bounces(raytrace *state, srp_error *error) {
     if (status != SRP_OK) {
         return status;
     }
-    state->reflects = any_reflects(&state->world);
+    look_at_facets(state);
     if (!state->reflects) {
         return SRP_OK;
     }
@@ -363,10 +407,7 @@ static srp_status prepare(const srp_scene *scene, const srp_method_params *param
     state->world.reference = params->reference;
     state->world.reflections = params->reflections;
     state->world.diffuse = params->diffuse;
-    srp_status status = srp_method_exact.prepare(scene, params, &state->direct, error);
-    if (status == SRP_OK) {
-        status = prepare_bounces(state, error);
-    }
+    srp_status status = prepare_bounces(state, error);
     if (status != SRP_OK) {
         release(&state->head);
         return status;
@@ -385,7 +426,7 @@ void srp_raytrace_watch(srp_prepared *prepared,
 const srp_method srp_method_raytrace = {
     .name = "raytrace",
     .device = "cpu",
-    .summary = "first hit solved exactly, reflected light sampled by rays",
+    .summary = "first hit and mirrored light solved exactly, the rest sampled by rays",
     .shapes = SRP_SHAPE_MESH,
     .capabilities = SRP_METHOD_BASIS | SRP_METHOD_LATTICE | SRP_METHOD_MOMENT | SRP_METHOD_BOUNCE,
     .prepare = prepare,

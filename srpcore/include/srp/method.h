@@ -52,10 +52,13 @@ typedef struct srp_method_params {
     uint32_t reflections; /* bounces that light is followed for after its first hit, 0 to 100 */
     uint32_t diffuse;     /* rays that carry the diffuse light of a first hit, 0 to 1024; 0 = single
                              scattering: diffuse light is not followed */
+    /* Mirrored beams that are followed exactly for one direction, at most: where it would take
+     * more, mirrored light is sampled (SRP_RESPONSE_MIRRORS_SAMPLED). 0 = always sampled. */
+    uint32_t mirrored_beams;
 } srp_method_params;
 
 /* reference 0, one thread per processor, seed 0, turned lattice of 512, no tolerance, 8192, 2
- * reflections, single scattering. */
+ * reflections, single scattering, 4096 beams. */
 SRP_API srp_method_params srp_method_params_default(void);
 
 /* What a method can do; bits. */
@@ -64,7 +67,8 @@ enum {
     SRP_METHOD_BASIS = 2,   /* can give per-material sums */
     SRP_METHOD_LATTICE = 4, /* uses params.lattice, tolerance, max_samples */
     SRP_METHOD_MOMENT = 8,  /* gives t; without it t is 0 */
-    SRP_METHOD_BOUNCE = 16  /* follows reflected light: uses params.reflections, diffuse */
+    SRP_METHOD_BOUNCE = 16  /* follows reflected light: uses params.reflections, diffuse,
+                               mirrored_beams */
 };
 
 typedef struct srp_method srp_method;
@@ -88,7 +92,8 @@ SRP_API extern const srp_method srp_method_cannonball; /* AAS 20-481, Eq. 4 */
 SRP_API extern const srp_method srp_method_nplate;     /* AAS 20-481, Eq. 5 */
 SRP_API extern const srp_method srp_method_exact;      /* first hit, by polygon clipping */
 SRP_API extern const srp_method srp_method_raycast;    /* first hit, sampled */
-SRP_API extern const srp_method srp_method_raytrace; /* first hit exact, reflected light sampled */
+SRP_API extern const srp_method
+    srp_method_raytrace; /* first hit and mirrored light exact, diffuse light sampled */
 
 /* All methods of this library, in the order above; *count of them. Constant. */
 SRP_API const srp_method *const *srp_method_list(size_t *count);

@@ -18,6 +18,8 @@ SRP_BEGIN_DECLS
 /* Notes on a response; bits. */
 enum {
     SRP_RESPONSE_TOLERANCE_MISSED = 1, /* the largest sample count did not reach the tolerance */
+    SRP_RESPONSE_MIRRORS_SAMPLED = 4, /* mirrored light would have taken more beams than allowed: it
+                                         was sampled */
     SRP_RESPONSE_CUT = 2 /* part of the model lies outside the window that was asked for: what it
                             may add to f and t is in their errors */
 };
