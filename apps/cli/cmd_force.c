@@ -144,6 +144,14 @@ static void print_basis(const force_result *result) {
     }
 }
 
+static bool mirrors_are_sampled(const srp_response *r) {
+    return (r->flags & SRP_RESPONSE_MIRRORS_SAMPLED) != 0;
+}
+
+static const char *how_mirrored(const srp_response *r) {
+    return mirrors_are_sampled(r) ? "sampled (more beams than --beams allows)" : "exact";
+}
+
 static void print_text(const force_result *result) {
     const force_options *options = result->options;
     const srp_response *r = &result->response;
@@ -158,6 +166,7 @@ static void print_text(const force_result *result) {
            has(result, SRP_METHOD_EXACT) ? " (no sampling)" : "");
     if (has(result, SRP_METHOD_BOUNCE)) {
         print_vector("  of it reflected", r->f_bounce, "m^2");
+        printf("%-18s  %s\n", "  mirrored light", how_mirrored(r));
     }
     if (has(result, SRP_METHOD_MOMENT)) {
         print_vector("moment vector t", r->t, "m^3");
@@ -252,6 +261,7 @@ static void write_json(const force_result *result) {
         cli_json_vector(&json, "f_bounce_m2", r->f_bounce);
         cli_json_vector(&json, "t_bounce_m3", r->t_bounce);
         cli_json_number(&json, "unresolved", r->unresolved);
+        cli_json_flag(&json, "mirrors_sampled", mirrors_are_sampled(r));
     }
     cli_json_number(&json, "lit_area_m2", r->lit_area);
     cli_json_number(&json, "back_area_m2", r->back_area);

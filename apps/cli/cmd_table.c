@@ -312,6 +312,7 @@ static size_t count_flagged(const srp_table *table, unsigned flag) {
 static int finish(table_job *job) {
     size_t written, missed = count_flagged(job->table, SRP_RESPONSE_TOLERANCE_MISSED);
     size_t cut = count_flagged(job->table, SRP_RESPONSE_CUT);
+    size_t sampled = count_flagged(job->table, SRP_RESPONSE_MIRRORS_SAMPLED);
     int status = cli_outputs_write(&job->options->outputs, job->table, &written);
     if (status != CLI_DONE) {
         leave_partial(job);
@@ -322,6 +323,11 @@ static int finish(table_job *job) {
     if (missed > 0) {
         cli_say("warning: %zu nodes did not reach the tolerance with %u samples a side", missed,
                 srp_prepared_params(job->loaded.prepared)->max_samples);
+    }
+    uint32_t beams = srp_prepared_params(job->loaded.prepared)->mirrored_beams;
+    if (sampled > 0 && beams > 0) {
+        cli_say("in %zu nodes mirrored light takes more than %u beams and was sampled (--beams)",
+                sampled, beams);
     }
     if (cut > 0) {
         cli_say("warning: in %zu nodes, part of the model lies outside the window", cut);

@@ -63,6 +63,7 @@ const cli_group cli_group_model = {"Model", MODEL_OPTIONS, MODEL_OPTION_COUNT};
 static const cli_range CELLS = {1.0, 32768.0, false, "a whole number from 1 to 32768"};
 static const cli_range REFLECTIONS = {0.0, 100.0, false, "a whole number from 0 to 100"};
 static const cli_range DIFFUSE = {0.0, 1024.0, false, "a whole number from 0 to 1024"};
+static const cli_range BEAMS = {0.0, 1e9, false, "a whole number from 0 to 1000000000"};
 static const cli_range THREADS = {1.0, 1024.0, false, "a whole number from 1 to 1024"};
 
 static const cli_option METHOD_OPTIONS[METHOD_OPTION_COUNT] = {
@@ -122,10 +123,17 @@ static const cli_option METHOD_OPTIONS[METHOD_OPTION_COUNT] = {
     [METHOD_TOLERANCE] = {.name = "tolerance",
                           .value = "REL",
                           .help = "Refine the samples until the standard error of f is below REL "
-                                  "times |f|.",
+                                  "times |f|, or as far as --max-grid allows.",
                           .set = cli_set_number,
                           .offset = offsetof(cli_method_options, tolerance),
                           .range = &CLI_POSITIVE},
+    [METHOD_MAX_GRID] = {.name = "max-grid",
+                         .value = "N",
+                         .help = "Samples along a side beyond which --tolerance gives up; the "
+                                 "result says so. Default: 8192.",
+                         .set = cli_set_count,
+                         .offset = offsetof(cli_method_options, max_grid),
+                         .range = &CELLS},
     [METHOD_REFLECTIONS] = {.name = "reflections",
                             .value = "R",
                             .help = "Bounces that light is followed for after its first hit. "
@@ -141,6 +149,14 @@ static const cli_option METHOD_OPTIONS[METHOD_OPTION_COUNT] = {
                         .set = cli_set_count,
                         .offset = offsetof(cli_method_options, diffuse),
                         .range = &DIFFUSE},
+    [METHOD_BEAMS] = {.name = "beams",
+                      .value = "N",
+                      .help = "Mirrored beams that are followed exactly for one direction, at "
+                              "most. Where it would take more, mirrored light is sampled. 0: "
+                              "always. Default: 8192.",
+                      .set = cli_set_count,
+                      .offset = offsetof(cli_method_options, beams),
+                      .range = &BEAMS},
     [METHOD_CR] = {.name = "cr",
                    .value = "CR",
                    .help = "Reflectivity coefficient of a cannonball.",
@@ -204,6 +220,7 @@ static const use METHOD_USE[METHOD_OPTION_COUNT] = {
     [METHOD_WINDOW] = {0, SRP_METHOD_LATTICE},     [METHOD_COLUMNS] = {0, SRP_METHOD_LATTICE},
     [METHOD_ROWS] = {0, SRP_METHOD_LATTICE},       [METHOD_SEED] = {0, SRP_METHOD_LATTICE},
     [METHOD_REFLECTIONS] = {0, SRP_METHOD_BOUNCE}, [METHOD_DIFFUSE] = {0, SRP_METHOD_BOUNCE},
+    [METHOD_BEAMS] = {0, SRP_METHOD_BOUNCE},       [METHOD_MAX_GRID] = {0, SRP_METHOD_LATTICE},
     [METHOD_TOLERANCE] = {0, SRP_METHOD_LATTICE},  [METHOD_CR] = {SRP_SHAPE_SPHERE, 0},
     [METHOD_AREA] = {SRP_SHAPE_SPHERE, 0},         [METHOD_REFERENCE] = {0, SRP_METHOD_MOMENT},
 };
@@ -307,6 +324,9 @@ static int choose_lattice(const cli_method_options *options, const srp_method *m
     if (columns && grid) {
         return cli_usage_error("--grid and --columns exclude each other");
     }
+    if (cli_is_given(given, METHOD_MAX_GRID) && !cli_is_given(given, METHOD_TOLERANCE)) {
+        return cli_usage_error("--max-grid needs --tolerance");
+    }
     bool bounces = (method->capabilities & SRP_METHOD_BOUNCE) != 0;
     if (window && !bounces && cli_is_given(given, METHOD_SEED)) {
         return cli_usage_error("a --window has no random shift: --seed would be without effect");
@@ -349,6 +369,12 @@ int cli_method_choose(const cli_model_options *model, const cli_method_options *
     }
     if (cli_is_given(options->given, METHOD_TOLERANCE)) {
         params->tolerance = options->tolerance;
+    }
+    if (cli_is_given(options->given, METHOD_MAX_GRID)) {
+        params->max_samples = options->max_grid;
+    }
+    if (cli_is_given(options->given, METHOD_BEAMS)) {
+        params->mirrored_beams = options->beams;
     }
     if (cli_is_given(options->given, METHOD_REFLECTIONS)) {
         params->reflections = options->reflections;

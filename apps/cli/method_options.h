@@ -28,8 +28,10 @@ enum {
     METHOD_ROWS,
     METHOD_SEED,
     METHOD_TOLERANCE,
+    METHOD_MAX_GRID,
     METHOD_REFLECTIONS,
     METHOD_DIFFUSE,
+    METHOD_BEAMS,
     METHOD_CR,
     METHOD_AREA,
     METHOD_REFERENCE,
@@ -44,7 +46,7 @@ typedef struct cli_method_options {
     double pixel, window[4];
     uint64_t seed;
     double tolerance;
-    uint32_t reflections, diffuse;
+    uint32_t max_grid, reflections, diffuse, beams;
     double cr, area;
     srp_vec3 reference;
 } cli_method_options;

@@ -29,7 +29,7 @@ srp_method_params srp_method_params_default(void) {
     params.max_samples = 8192;
     params.reflections = 2;
     params.diffuse = 0;
-    params.mirrored_beams = 4096;
+    params.mirrored_beams = 8192;
     return params;
 }
 

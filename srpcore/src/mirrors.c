@@ -66,8 +66,8 @@ srp_mirrors *srp_mirrors_create(const srp_bounce_world *world) {
 }
 
 static void tell(const srp_mirrors *work, srp_bounce_event event) {
-    /* With diffuse light samples are traced as well, and tell the whole story. */
-    if (work->world->watch != NULL && work->world->diffuse == 0) {
+    /* Where samples are traced as well, they tell the whole story. */
+    if (work->world->watch != NULL && work->world->diffuse == 0 && work->limit > 0) {
         work->world->watch(work->world->user, &event);
     }
 }

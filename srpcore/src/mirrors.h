@@ -34,7 +34,7 @@ typedef struct srp_mirrored {
 
 /*
  * Adds direct light from `s` to the (material count + 1) sums, and follows what mirrors make of it,
- * up to `limit` beams. Events are told to world->watch while only mirrored light is followed.
+ * up to `limit` beams. Events are told to world->watch, unless all or diffuse light is sampled.
  * SRP_OK or SRP_NO_MEMORY.
  */
 srp_status srp_mirrors_respond(srp_mirrors *mirrors, srp_vec3 s, uint32_t limit, srp_basis *basis,

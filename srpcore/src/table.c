@@ -126,6 +126,7 @@ static srp_method_params deciding_params(const srp_method *method,
     if (method->capabilities & SRP_METHOD_BOUNCE) {
         result.reflections = params->reflections;
         result.diffuse = params->diffuse;
+        result.mirrored_beams = params->mirrored_beams;
     }
     if (!(method->capabilities & SRP_METHOD_LATTICE)) {
         return result;
@@ -377,6 +378,7 @@ static srp_status same_params(const srp_method_params *a, const srp_method_param
         {"largest number of samples along a side", a->max_samples, b->max_samples},
         {"number of reflections", a->reflections, b->reflections},
         {"number of diffuse rays", a->diffuse, b->diffuse},
+        {"number of mirrored beams", a->mirrored_beams, b->mirrored_beams},
     };
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; ++k) {
         srp_status status =

@@ -56,6 +56,7 @@ static void mix_params(XXH3_state_t *state, const srp_method_params *params) {
     mix_u64(state, params->max_samples);
     mix_u64(state, params->reflections);
     mix_u64(state, params->diffuse);
+    mix_u64(state, params->mirrored_beams);
 }
 
 static void mix_head(XXH3_state_t *state, const srp_table *table) {

@@ -201,6 +201,7 @@ static void get_origin(source *in) {
     get_lattice(in);
     get_uint(in, "reflections", &info->params.reflections);
     get_uint(in, "diffuse_rays", &info->params.diffuse);
+    get_uint(in, "mirrored_beams", &info->params.mirrored_beams);
     get_doubles(in, "solar_flux_w_m2", 1, &info->light.flux);
     get_doubles(in, "astronomical_unit_m", 1, &info->light.au);
     get_doubles(in, "mass_kg", 1, &info->mass);

@@ -128,6 +128,7 @@ static void put_origin(sink *out) {
     if (info->has_bounce) {
         put_uint(out, "reflections", info->params.reflections);
         put_uint(out, "diffuse_rays", info->params.diffuse);
+        put_uint(out, "mirrored_beams", info->params.mirrored_beams);
     }
     put_doubles(out, "solar_flux_w_m2", 1, &info->light.flux);
     put_doubles(out, "astronomical_unit_m", 1, &info->light.au);
@@ -253,11 +254,12 @@ static void put_counts(sink *out) {
     }
     int flags = define(out, "flags", NC_UINT, 2, dimensions, "1", "notes on the node, bits");
     compress(out, "flags", flags, 2, dimensions);
-    const unsigned masks[] = {SRP_RESPONSE_TOLERANCE_MISSED, SRP_RESPONSE_CUT};
+    const unsigned masks[] = {SRP_RESPONSE_TOLERANCE_MISSED, SRP_RESPONSE_CUT,
+                              SRP_RESPONSE_MIRRORS_SAMPLED};
     if (is_fine(out)) {
-        step(out, "flags", nc_put_att_uint(out->ncid, flags, "flag_masks", NC_UINT, 2, masks));
+        step(out, "flags", nc_put_att_uint(out->ncid, flags, "flag_masks", NC_UINT, 3, masks));
     }
-    put_text(out, flags, "flag_meanings", "tolerance_missed cut");
+    put_text(out, flags, "flag_meanings", "tolerance_missed cut mirrors_sampled");
     unsigned *bits = (unsigned *)out->values;
     for (size_t k = 0; k < count; ++k) {
         bits[k] = table->nodes[k].flags;

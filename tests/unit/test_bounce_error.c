@@ -14,7 +14,8 @@ typedef struct shares {
     int cases, f_within, t_within;
 } shares;
 
-static srp_prepared *prepare(const srp_scene *scene, uint32_t samples, uint32_t diffuse) {
+static srp_prepared *prepare(const srp_scene *scene, uint32_t samples, uint32_t diffuse,
+                             uint32_t beams) {
     srp_error error;
     srp_prepared *prepared = NULL;
     srp_method_params params = srp_method_params_default();
@@ -22,6 +23,7 @@ static srp_prepared *prepare(const srp_scene *scene, uint32_t samples, uint32_t 
     params.diffuse = diffuse;
     params.lattice.samples = samples;
     params.seed = samples;
+    params.mirrored_beams = beams;
     assert_ok(srp_method_prepare(&srp_method_raytrace, scene, &params, &prepared, &error), error);
     return prepared;
 }
@@ -31,12 +33,16 @@ static bool is_within(srp_vec3 got, srp_vec3 want, double error, double want_err
     return off <= 2.0 * sqrt(error * error + want_error * want_error);
 }
 
-/* Mirrors alone, then diffuse light too: the two have errors of different kinds. */
+/* Mirrors alone, sampled, against beams; then diffuse light: the two have errors of different
+ * kinds.
+ */
 static shares compare(const char *name, uint32_t diffuse) {
     model_file model = model_read(name);
     srp_scene *scene = model_scene(&model);
-    srp_prepared *coarse = prepare(scene, COARSE, diffuse);
-    srp_prepared *converged = prepare(scene, CONVERGED * COARSE, diffuse);
+    uint32_t beams = srp_method_params_default().mirrored_beams;
+    srp_prepared *coarse = prepare(scene, COARSE, diffuse, diffuse > 0 ? beams : 0);
+    srp_prepared *converged =
+        prepare(scene, CONVERGED * COARSE, diffuse, diffuse > 0 ? beams : 1000000);
     shares sum = {0, 0, 0};
     uint64_t random = 2020;
     for (int k = 0; k < directions; ++k) {

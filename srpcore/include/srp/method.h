@@ -58,7 +58,7 @@ typedef struct srp_method_params {
 } srp_method_params;
 
 /* reference 0, one thread per processor, seed 0, turned lattice of 512, no tolerance, 8192, 2
- * reflections, single scattering, 4096 beams. */
+ * reflections, single scattering, 8192 beams. */
 SRP_API srp_method_params srp_method_params_default(void);
 
 /* What a method can do; bits. */
