@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Direct light solved exactly (exact.c), reflected light sampled (bounce.h).
+ * Direct and mirrored light solved exactly (mirrors.h), the rest sampled (bounce.h): diffuse light,
+ * and mirrored light where it would take too many beams.
  *
  * The lattice of the raycast method says where paths begin: its samples' first hits, drawn and not
  * traced. Facets that reflect nothing, or from which nothing can be seen (sight.h), begin none; a
- * scene or a direction without others needs no lattice at all and is answered as by the exact
- * method.
+ * scene or a direction without others needs no lattice at all.
  *
  * The rows of a lattice are cut into a fixed number of strips with sums of their own, added in
  * order: the result is the same whoever works on them.
