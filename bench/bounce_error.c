@@ -20,7 +20,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { REFLECTIONS = 2, DIFFUSE = 2, RUNS = 12, SIDES = 5, FIRST_SIDE = 32 };
+enum { REFLECTIONS = 2, DIFFUSE = 4, RUNS = 32, SIDES = 4, FIRST_SIDE = 48 };
 static const double GOAL = 1e-4, DEMANDED_RATIO = 10.0;
 static const uint64_t MONTE_CARLO_PATHS = 4000000;
 
