@@ -393,9 +393,9 @@ static void lose_basis_b(int ncid) {
 static void lose_basis_a(int ncid) {
     rename_variable(ncid, "basis_a", "basis_aa");
 }
-static void moment_as_basis_c(int ncid) {
+static void samples_as_basis_c(int ncid) {
     rename_variable(ncid, "basis_c", "basis_cc");
-    rename_variable(ncid, "moment_bounce", "basis_c");
+    rename_variable(ncid, "samples", "basis_c");
 }
 static void swap_basis(int ncid) {
     rename_variable(ncid, "basis_b", "basis_bb");
@@ -439,7 +439,7 @@ START_TEST(changed_descriptions_are_refused) {
         {rename_force, "variable 'force' is missing", SRP_BAD_FORMAT},
         {lose_basis_a, "does not match its checksum", SRP_BAD_FORMAT},
         {lose_basis_b, "variable 'basis_b' is missing", SRP_BAD_FORMAT},
-        {moment_as_basis_c, "variable 'basis_c' has another type or other dim", SRP_BAD_FORMAT},
+        {samples_as_basis_c, "variable 'basis_c' has another type or other dim", SRP_BAD_FORMAT},
         {swap_basis, "does not match its checksum", SRP_BAD_FORMAT},
         {keep_bounce, "'bounce_optics_hash' does not fit", SRP_BAD_FORMAT},
         {trace_earlier, "does not match its checksum", SRP_BAD_FORMAT},
