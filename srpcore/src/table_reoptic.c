@@ -190,7 +190,7 @@ static double least_push(const srp_table *table, const srp_basis *basis, srp_vec
     return least;
 }
 
-/* The errors of sampled sums: the old ones times a bound of the growth of pushes, and no more than
+/* The errors of sampled sums: the old ones times the growth of pushes, and no more than
  * the push on all that is lit. Exact sums have none. */
 static void scale_errors(const reoptic *job, const srp_basis *basis, srp_vec3 s,
                          srp_response *node) {

@@ -126,7 +126,7 @@ SRP_API double srp_table_pull_share(const srp_table *table);
  * filled further (srp_table_check_origin). command_line is "" until described. Areas and samples
  * stay. Where the sums are exact, f and t are what the method would give for the new optics, to
  * rounding. Where they are sampled (f_error > 0 without a bounce part), f_error and t_error are the
- * old ones times a bound of how much harder a cell can be pushed now (docs/theory.md, "Other
+ * old ones times how much harder light may push now, a scale and no bound (docs/theory.md, "Other
  * optics"), and SRP_RESPONSE_TOLERANCE_MISSED is decided anew. Empty nodes stay empty.
  * SRP_UNSUPPORTED: no sums per material; a bounce part and not keep_bounce; one_sided = true for a
  * material that has two sides; part of a sampled model outside its window (SRP_RESPONSE_CUT): the
