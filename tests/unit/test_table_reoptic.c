@@ -336,6 +336,8 @@ static size_t sampled_ratios(const char *name, int old, double *ratio, double *g
     srp_grid grid = grid_of(sampled_az_step, sampled_el_step);
     srp_method_params params = off_origin();
     params.lattice.samples = 64;
+    srp_scene *scene = model_scene(&model);
+    srp_table *exact = trace(&srp_method_exact, scene, &params, grid);
     uint64_t random = 17;
     size_t count = 0, nodes = srp_grid_node_count(grid);
     for (int n = 0; n < sampled_tables; ++n) {
@@ -349,10 +351,9 @@ static size_t sampled_ratios(const char *name, int old, double *ratio, double *g
             set_optics(materials, each, random_optics(&random, false));
         }
         from = from != NULL ? from : scene_of(model.mesh, before);
-        srp_scene *to = scene_of(model.mesh, materials);
         params.seed = (uint64_t)n;
         srp_table *sampled = trace(&srp_method_raycast, from, &params, grid);
-        srp_table *truth = trace(&srp_method_exact, to, &params, grid);
+        srp_table *truth = reoptic(exact, materials, false);
         srp_table *got = reoptic(sampled, materials, false);
         for (size_t k = 0; k < nodes; ++k) {
             const srp_response *a = &got->nodes[k], *b = &truth->nodes[k];
@@ -365,10 +366,11 @@ static size_t sampled_ratios(const char *name, int old, double *ratio, double *g
         srp_table_destroy(truth);
         srp_table_destroy(got);
         srp_scene_destroy(from);
-        srp_scene_destroy(to);
         srp_materials_destroy(materials);
         srp_materials_destroy(before);
     }
+    srp_table_destroy(exact);
+    srp_scene_destroy(scene);
     model_free(&model);
     qsort(ratio, count, sizeof *ratio, by_size);
     qsort(growth, count, sizeof *growth, by_size);
