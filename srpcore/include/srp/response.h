@@ -62,6 +62,7 @@ SRP_API void srp_basis_apply(const srp_basis *basis, srp_optics optics, srp_vec3
  * optics: direct light is linear in them. From srp_basis_apply(), whose formulas stand above:
  *   df/drho_s = a s - 2 b        df/drho_d = -(2/3) c
  *   dt/drho_s = ra x s - 2 rb    dt/drho_d = -(2/3) rc
+ * (AAS 20-481, Eq. 2 with s to the Sun, summed and differentiated; docs/theory.md, "Other optics").
  * Each share grows at the expense of what is absorbed. For absorbing backs of one-sided materials
  * (the last sums of a row) they mean nothing: their optics are fixed at 0, 0.
  */
