@@ -86,6 +86,12 @@ static void mix_head(XXH3_state_t *state, const srp_table *table) {
         mix_double(state, table->material_optics[m].rho_d);
         mix_u64(state, table->material_optics[m].one_sided);
     }
+    /* Only where they say something, so that traced tables keep the checksum that they have. */
+    if (info->traced_optics_hash[0] != '\0') {
+        mix_text(state, info->traced_optics_hash);
+        mix_text(state, info->traced_command_line);
+        mix_u64(state, info->bounce_kept);
+    }
 }
 
 static void mix_basis(XXH3_state_t *state, const srp_basis *basis) {

@@ -43,6 +43,8 @@ const srp_text_attribute srp_table_texts[SRP_TEXT_ATTRIBUTE_COUNT] = {
     {"optics_hash", INFO(optics_hash)},
     {"library_version", INFO(version)},
     {"command_line", INFO(command_line)},
+    {"traced_optics_hash", INFO(traced_optics_hash)},
+    {"traced_command_line", INFO(traced_command_line)},
 };
 
 bool srp_column_is_in(const srp_column *column, const srp_table *table) {

@@ -425,6 +425,21 @@ static void make_table(source *in) {
     }
 }
 
+/* Whether the bounce part was kept as traced. */
+static void get_kept_bounce(source *in) {
+    srp_table_info *info = &in->table->info;
+    char *hash = get_text(in, SRP_TABLE_BOUNCE_OPTICS);
+    if (hash == NULL) {
+        return;
+    }
+    info->bounce_kept = hash[0] != '\0';
+    if (info->bounce_kept && (!info->has_bounce || strcmp(hash, info->traced_optics_hash) != 0)) {
+        refuse(in, "attribute '" SRP_TABLE_BOUNCE_OPTICS "'",
+               "does not fit: there is no bounce part, or the traced optics are others");
+    }
+    free(hash);
+}
+
 static void get_content(source *in) {
     srp_table *table = in->table;
     get_origin(in);
@@ -434,6 +449,7 @@ static void get_content(source *in) {
     table->info.has_moment = has_variable(in, "moment");
     table->info.has_error = has_variable(in, "force_error");
     table->info.has_bounce = has_variable(in, "force_bounce");
+    get_kept_bounce(in);
     for (size_t k = 0; k < SRP_COLUMN_COUNT && is_fine(in); ++k) {
         if (srp_column_is_in(&srp_table_columns[k], table)) {
             get_column(in, &srp_table_columns[k]);

@@ -120,6 +120,9 @@ static void put_origin(sink *out) {
         memcpy(&text, (const char *)info + srp_table_texts[k].offset, sizeof text);
         put_text(out, NC_GLOBAL, srp_table_texts[k].name, text);
     }
+    if (info->bounce_kept) {
+        put_text(out, NC_GLOBAL, SRP_TABLE_BOUNCE_OPTICS, info->traced_optics_hash);
+    }
     const srp_vec3 reference = info->params.reference;
     put_doubles(out, "reference_point_m", 3, (double[]){reference.x, reference.y, reference.z});
     if (out->table->has_lattice) {

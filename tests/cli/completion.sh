@@ -42,13 +42,16 @@ touch a.obj b.obj c.nc d.plates
 offers 'a.obj b.obj sub' srp info ''
 offers 'a.obj' srp table a
 offers 'c.nc' srp convert c
+offers 'c.nc sub' srp reoptic ''
+offers '--mass --material --mtl' srp reoptic --m
+offers 'a.obj b.obj c.nc d.plates srp.bash sub' srp reoptic --mtl ''
 offers 'd.plates' srp force --plates d
 offers 'a.obj b.obj c.nc d.plates srp.bash sub' srp table -o ''
 offers 'd.plates' srp force --plates = d
 offers '' srp nocommand ''
 
 # Every option of every command.
-for command in info force table convert; do
+for command in info force table reoptic convert; do
     expect 0 "$command" --help
     grep -oE -- '^ {2,6}(-[a-z], )?--[a-z-]+' ../log/out | grep -oE -- '--[a-z-]+' > options
     while read -r option; do
