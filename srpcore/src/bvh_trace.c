@@ -356,7 +356,9 @@ SRP_CLONE_PART void start_lanes(stream *s) {
         lane *own = &s->lanes[id];
         finish_lane(s, own);
         const srp_ray *ray = &s->rays[s->next];
-        const srp_ray *ahead = ray + (s->count - s->next > AHEAD ? AHEAD : 0);
+        size_t left = s->count - s->next;
+        fetch(ray + (left > 3 * AHEAD ? 3 * AHEAD : 0), sizeof *ray);
+        const srp_ray *ahead = ray + (left > AHEAD ? AHEAD : 0);
         if (ahead->from != SRP_NO_NEIGHBOUR) {
             fetch(&s->bvh->leaving[ahead->from], sizeof *s->bvh->leaving);
         }
