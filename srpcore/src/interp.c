@@ -241,6 +241,26 @@ void srp_interp_fit_slopes(srp_interp *interp) {
 
 /* ---- Making and ending ---------------------------------------------------------------------- */
 
+void srp_interp_set_grid(srp_interp *interp, uint32_t columns, uint32_t rows) {
+    /* Quarters of a turn and halves of the way from pole to pole. */
+    static const double AZ_BASE[8] = {2, 2, 4, 0, 3, 1, 3, 1};
+    static const double AZ_SIGN[8] = {1, -1, -1, 1, -1, 1, 1, -1};
+    static const double EL_BASE[4] = {1, 1, 2, 0};
+    static const double EL_SIGN[4] = {1, -1, -1, 1};
+    interp->columns = columns;
+    interp->rows = rows;
+    interp->columns_per_rad = columns / (2.0 * SRP_PI);
+    interp->rows_per_rad = rows / SRP_PI;
+    for (int k = 0; k < 8; ++k) {
+        interp->az_base[k] = 0.25 * AZ_BASE[k] * columns;
+        interp->az_scale[k] = AZ_SIGN[k] * interp->columns_per_rad;
+    }
+    for (int k = 0; k < 4; ++k) {
+        interp->el_base[k] = 0.5 * EL_BASE[k] * rows;
+        interp->el_scale[k] = EL_SIGN[k] * interp->rows_per_rad;
+    }
+}
+
 /* Memory for the nodes; srp_interp_destroy() gives it back whatever else fails. */
 static srp_status set_up(srp_interp *interp, const srp_interp_scheme *scheme,
                          const srp_table *table, srp_error *error) {
@@ -248,10 +268,7 @@ static srp_status set_up(srp_interp *interp, const srp_interp_scheme *scheme,
     interp->scheme = scheme;
     interp->has_moment = srp_table_get_info(table)->has_moment;
     interp->width = interp->has_moment ? SRP_INTERP_WIDTH_FT : SRP_INTERP_WIDTH_F;
-    interp->columns = grid.az_count - 1;
-    interp->rows = grid.el_count - 1;
-    interp->columns_per_rad = interp->columns / (2.0 * SRP_PI);
-    interp->rows_per_rad = interp->rows / SRP_PI;
+    srp_interp_set_grid(interp, grid.az_count - 1, grid.el_count - 1);
     size_t size = ((size_t)interp->columns + 3) * srp_interp_column_size(interp);
     /* A whole number of the lines that it is aligned to. */
     interp->nodes = aligned_alloc(64, (size * sizeof *interp->nodes + 63) / 64 * 64);
@@ -321,45 +338,13 @@ bool srp_interp_has_moment(const srp_interp *interp) {
 
 /* ---- Asking --------------------------------------------------------------------------------- */
 
-/* Rows of a Jacobian from derivatives along azimuth and elevation, and the linear part's own. */
-static void assemble(const srp_interp *interp, const srp_interp_place *place, const double *by_az,
-                     const double *by_el, size_t first, double rows[3][3]) {
-    const double(*linear)[SRP_INTERP_WIDTH_FT] = interp->linear;
-    srp_vec3 s = place->s;
-    srp_vec3 az = srp_vec3_make(-place->sin_az, place->cos_az, 0.0);
-    srp_vec3 el = srp_vec3_make(-s.z * place->cos_az, -s.z * place->sin_az, place->cos_el);
-    for (size_t r = 0; r < 3; ++r) {
-        size_t k = first + r;
-        srp_vec3 m = srp_vec3_make(linear[1][k], linear[2][k], linear[3][k]);
-        double along = srp_vec3_dot(m, s);
-        rows[r][0] = by_az[k] * az.x + by_el[k] * el.x + (m.x - along * s.x);
-        rows[r][1] = by_az[k] * az.y + by_el[k] * el.y + (m.y - along * s.y);
-        rows[r][2] = by_el[k] * el.z + (m.z - along * s.z);
-    }
-}
-
 srp_status srp_interp_eval(const srp_interp *interp, srp_vec3 s_body, srp_vec3 *f, srp_vec3 *t,
                            srp_interp_jacobian *jacobian, srp_error *error) {
-    srp_interp_place place;
-    double value[SRP_INTERP_WIDTH_FT], by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
-    if (!srp_interp_locate(interp, s_body, &place)) {
-        return srp_fail(error, SRP_BAD_ARGUMENT,
-                        "direction (%.17g, %.17g, %.17g), expected a unit vector", s_body.x,
-                        s_body.y, s_body.z);
+    srp_interp_target to = {f, t, jacobian};
+    if (interp->scheme->eval(interp, &s_body, &to)) {
+        return SRP_OK;
     }
-    interp->scheme->eval(interp, &place, value, jacobian != NULL ? by_az : NULL, by_el);
-    *f = srp_vec3_make(value[0], value[1], value[2]);
-    if (t != NULL) {
-        *t = interp->has_moment ? srp_vec3_make(value[3], value[4], value[5])
-                                : srp_vec3_make(0.0, 0.0, 0.0);
-    }
-    if (jacobian != NULL) {
-        assemble(interp, &place, by_az, by_el, 0, jacobian->df);
-        if (interp->has_moment) {
-            assemble(interp, &place, by_az, by_el, SRP_INTERP_T, jacobian->dt);
-        } else {
-            memset(jacobian->dt, 0, sizeof jacobian->dt);
-        }
-    }
-    return SRP_OK;
+    return srp_fail(error, SRP_BAD_ARGUMENT,
+                    "direction (%.17g, %.17g, %.17g), expected a unit vector", s_body.x, s_body.y,
+                    s_body.z);
 }

@@ -32,18 +32,20 @@ static srp_status prepare(srp_interp *interp, srp_error *error) {
     return SRP_OK;
 }
 
-SRP_CLONE_PART cubic_weights weights(double x) {
+SRP_CLONE_PART void value_weights(double x, double w[4]) {
     double xx = x * x, xxx = xx * x;
-    cubic_weights w;
-    w.value[0] = xx - 0.5 * (x + xxx);
-    w.value[1] = 1.0 - 2.5 * xx + 1.5 * xxx;
-    w.value[2] = 0.5 * x + 2.0 * xx - 1.5 * xxx;
-    w.value[3] = 0.5 * (xxx - xx);
-    w.slope[0] = 2.0 * x - 0.5 - 1.5 * xx;
-    w.slope[1] = 4.5 * xx - 5.0 * x;
-    w.slope[2] = 0.5 + 4.0 * x - 4.5 * xx;
-    w.slope[3] = 1.5 * xx - x;
-    return w;
+    w[0] = xx - 0.5 * (x + xxx);
+    w[1] = 1.0 - 2.5 * xx + 1.5 * xxx;
+    w[2] = 0.5 * x + 2.0 * xx - 1.5 * xxx;
+    w[3] = 0.5 * (xxx - xx);
+}
+
+SRP_CLONE_PART void slope_weights(double x, double w[4]) {
+    double xx = x * x;
+    w[0] = 2.0 * x - 0.5 - 1.5 * xx;
+    w[1] = 4.5 * xx - 5.0 * x;
+    w[2] = 0.5 + 4.0 * x - 4.5 * xx;
+    w[3] = 1.5 * xx - x;
 }
 
 static void polynomial(const double e[4], double *d, double *c, double *b) {
@@ -58,19 +60,46 @@ static cubic_fade fade(double d) {
     return r;
 }
 
-SRP_TARGET_CLONES
-static void eval(const srp_interp *interp, const srp_interp_place *place, double *value,
-                 double *by_az, double *by_el) {
-    cubic_job job = {.az = weights(place->p), .value = value, .by_az = by_az, .by_el = by_el};
-    srp_interp_stencil(interp, place->i, place->j, job.column);
-    if (place->pole == 0) {
-        job.el = weights(place->q);
-        cubic_eval(interp, place, &job);
-    } else {
-        cubic_at_pole(interp, place, &job, polynomial, fade(place->theta * interp->rows_per_rad),
-                      false);
+static void eval_at_pole(const srp_interp *interp, const srp_interp_place *place,
+                         const srp_interp_target *to) {
+    double x[4], dx[4], value[SRP_INTERP_WIDTH_FT];
+    double by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
+    value_weights(place->p, x);
+    slope_weights(place->p, dx);
+    cubic_fade to_fit = fade(srp_interp_theta(place) * interp->rows_per_rad);
+    cubic_at_pole(interp, place, x, dx, polynomial, to_fit, false, value,
+                  to->jacobian != NULL ? by_az : NULL, by_el);
+    srp_interp_give_value(interp, value, to);
+    if (to->jacobian != NULL) {
+        srp_interp_give_slopes(interp, place, by_az, by_el, to->jacobian);
     }
-    cubic_add_linear(interp, place->s, value, interp->width);
+}
+
+SRP_TARGET_CLONES
+static void slopes_inside(const srp_interp *interp, const srp_interp_place *place,
+                          srp_interp_jacobian *jacobian) {
+    double by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
+    cubic_slopes_inside(interp, place, value_weights, slope_weights, by_az, by_el);
+    srp_interp_give_slopes(interp, place, by_az, by_el, jacobian);
+}
+
+SRP_TARGET_CLONES
+static bool eval(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
+    srp_interp_place place;
+    if (!srp_interp_locate(interp, s, &place)) {
+        return false;
+    }
+    if (srp_interp_pole_at(interp, &place) != 0) {
+        eval_at_pole(interp, &place, to);
+        return true;
+    }
+    double value[SRP_INTERP_WIDTH_FT];
+    cubic_value_inside(interp, &place, value_weights, value);
+    srp_interp_give_value(interp, value, to);
+    if (to->jacobian != NULL) {
+        slopes_inside(interp, &place, to->jacobian);
+    }
+    return true;
 }
 
 const srp_interp_scheme srp_interp_bicubic = {

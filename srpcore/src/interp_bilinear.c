@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Linear in azimuth and elevation, cell by cell. */
-#include "interp_internal.h"
-
-#include <srp/const.h>
+#include "interp_locate.h"
 
 static srp_status prepare(srp_interp *interp, srp_error *error) {
     (void)error;
@@ -14,7 +12,7 @@ static srp_status prepare(srp_interp *interp, srp_error *error) {
 /* The slope along azimuth per rad of arc in a cell with a pole, whose node is the same for both
  * columns: finite, however close the pole is. */
 static double by_az_at_pole(const srp_interp *interp, const srp_interp_place *place, double along) {
-    double rows = place->theta * interp->rows_per_rad;
+    double rows = srp_interp_theta(place) * interp->rows_per_rad;
     return place->cos_el > 0.0 ? along * interp->columns_per_rad * (rows / place->cos_el) : 0.0;
 }
 
@@ -22,37 +20,64 @@ static double by_az_at_pole(const srp_interp *interp, const srp_interp_place *pl
  * Azimuth is 0 there. */
 static void plane_at_pole(const srp_interp *interp, const srp_interp_place *place, double *by_az,
                           double *by_el) {
-    const srp_interp_pole *pole = srp_interp_pole_of(interp, place);
+    const int sign = srp_interp_pole_at(interp, place);
+    const srp_interp_pole *pole = &interp->poles[sign > 0];
     for (size_t k = 0; k < interp->width; ++k) {
         by_az[k] = pole->slope[1][k] * interp->rows_per_rad;
-        by_el[k] = -place->pole * pole->slope[0][k] * interp->rows_per_rad;
+        by_el[k] = -sign * pole->slope[0][k] * interp->rows_per_rad;
     }
 }
 
-static void eval(const srp_interp *interp, const srp_interp_place *place, double *value,
-                 double *by_az, double *by_el) {
-    const double *column[4];
-    srp_interp_stencil(interp, place->i, place->j, column);
-    size_t width = interp->width;
-    double p = place->p, q = place->q;
+static void slopes(const srp_interp *interp, const srp_interp_place *place, const double *a,
+                   const double *b, srp_interp_jacobian *jacobian) {
+    double by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
+    const size_t width = interp->width;
+    const double p = place->p, q = place->q;
+    const int sign = srp_interp_pole_at(interp, place);
     for (size_t k = 0; k < width; ++k) {
-        double a0 = column[1][width + k], a1 = column[1][2 * width + k];
-        double b0 = column[2][width + k], b1 = column[2][2 * width + k];
-        value[k] = (1.0 - p) * ((1.0 - q) * a0 + q * a1) + p * ((1.0 - q) * b0 + q * b1);
-        if (by_az == NULL) {
-            continue;
-        }
-        by_el[k] = ((1.0 - p) * (a1 - a0) + p * (b1 - b0)) * interp->rows_per_rad;
-        if (place->pole == 0) {
-            by_az[k] =
-                ((1.0 - q) * (b0 - a0) + q * (b1 - a1)) * interp->columns_per_rad / place->cos_el;
+        by_el[k] =
+            ((1.0 - p) * (a[width + k] - a[k]) + p * (b[width + k] - b[k])) * interp->rows_per_rad;
+        double low = b[k] - a[k], high = b[width + k] - a[width + k];
+        if (sign == 0) {
+            by_az[k] = ((1.0 - q) * low + q * high) * interp->columns_per_rad / place->cos_el;
         } else {
-            by_az[k] = by_az_at_pole(interp, place, place->pole > 0 ? b0 - a0 : b1 - a1);
+            by_az[k] = by_az_at_pole(interp, place, sign > 0 ? low : high);
         }
     }
-    if (by_az != NULL && !(place->cos_el > 0.0)) {
+    if (!(place->cos_el > 0.0)) {
         plane_at_pole(interp, place, by_az, by_el);
     }
+    srp_interp_give_slopes(interp, place, by_az, by_el, jacobian);
+}
+
+SRP_CLONE_PART void values(const srp_interp_place *place, const double *a, const double *b,
+                           size_t width, double *value) {
+    const double p = place->p, q = place->q;
+    const double w[4] = {(1.0 - p) * (1.0 - q), (1.0 - p) * q, p * (1.0 - q), p * q};
+    for (size_t k = 0; k < width; ++k) {
+        value[k] = (w[0] * a[k] + w[1] * a[width + k]) + (w[2] * b[k] + w[3] * b[width + k]);
+    }
+}
+
+SRP_TARGET_CLONES
+static bool eval(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
+    srp_interp_place place;
+    double value[SRP_INTERP_WIDTH_FT];
+    if (!srp_interp_locate(interp, s, &place)) {
+        return false;
+    }
+    srp_interp_stencil at = srp_interp_stencil_of(interp, place.i, place.j);
+    const double *a = at.first + at.column + interp->width, *b = a + at.column;
+    if (interp->width == SRP_INTERP_WIDTH_F) {
+        values(&place, a, b, SRP_INTERP_WIDTH_F, value);
+    } else {
+        values(&place, a, b, SRP_INTERP_WIDTH_FT, value);
+    }
+    srp_interp_give_value(interp, value, to);
+    if (to->jacobian != NULL) {
+        slopes(interp, &place, a, b, to->jacobian);
+    }
+    return true;
 }
 
 const srp_interp_scheme srp_interp_bilinear = {

@@ -26,6 +26,10 @@ struct srp_interp {
     size_t width;
     uint32_t columns, rows; /* steps of azimuth and elevation */
     double columns_per_rad, rows_per_rad;
+    /* Azimuth in columns from -180 degrees is az_base + az_scale times the angle to the nearest
+     * axis. By 4 |sine| > |cosine|, 2 cosine < 0, 1 sine < 0. Elevation in rows from -90 likewise,
+     * by 2 |sine| > cosine, 1 sine < 0. */
+    double az_base[8], az_scale[8], el_base[4], el_scale[4];
     /* (columns + 3, rows + 3, width): column i of the grid is at i + 1 and row j at j + 1, with one
      * more of each before the first and behind the last. Columns repeat; the rows beyond the poles
      * are the scheme's. Nodes, or what the scheme has made of them. */
@@ -39,14 +43,10 @@ struct srp_interp {
 typedef struct srp_interp_place {
     srp_vec3 s; /* normalised */
     double cos_az, sin_az, cos_el;
-    uint32_t i, j; /* cell: between columns i and i + 1, rows j and j + 1 */
-    double p, q;   /* place in the cell, 0 to 1, along azimuth and elevation */
-    int pole;      /* in the cells around a pole -1 (south) or 1 (north), else 0 */
-    double theta;  /* [rad] distance from that pole, without loss near it */
+    uint32_t i, j;   /* cell: between columns i and i + 1, rows j and j + 1 */
+    double p, q;     /* place in the cell, 0 to 1, along azimuth and elevation */
+    double el_angle; /* [rad] from the nearest of equator and poles */
 } srp_interp_place;
-
-/* False unless `s` is a unit vector. */
-bool srp_interp_locate(const srp_interp *interp, srp_vec3 s, srp_interp_place *place);
 
 static inline size_t srp_interp_column_size(const srp_interp *interp) {
     return ((size_t)interp->rows + 3) * interp->width;
@@ -58,30 +58,24 @@ static inline double *srp_interp_node(const srp_interp *interp, long i, long j) 
            (size_t)(j + 1) * interp->width;
 }
 
-/*
- * The nodes that a look-up in cell (i, j) sees: column[k] points to rows j - 1 to j + 2, one after
- * the other, of column i - 1 + k. All local schemes get at nodes here and nowhere else, so that
- * this is the place where a table that is being filled can be asked for them.
- */
-static inline void srp_interp_stencil(const srp_interp *interp, uint32_t i, uint32_t j,
-                                      const double *column[4]) {
-    size_t size = srp_interp_column_size(interp);
-    const double *first = srp_interp_node(interp, (long)i - 1, (long)j - 1);
-    for (size_t k = 0; k < 4; ++k) {
-        column[k] = first + k * size;
-    }
+/* The nodes that a look-up sees: rows j - 1 to j + 2, one after the other, of columns i - 1 to
+ * i + 2, each `column` doubles behind the last. */
+typedef struct srp_interp_stencil {
+    const double *first;
+    size_t column;
+} srp_interp_stencil;
+
+/* Those of cell (i, j). All schemes get at nodes here and nowhere else, so that this is the place
+ * where a table that is being filled can be asked for them. */
+static inline srp_interp_stencil srp_interp_stencil_of(const srp_interp *interp, uint32_t i,
+                                                       uint32_t j) {
+    size_t column = srp_interp_column_size(interp);
+    srp_interp_stencil stencil = {interp->nodes + i * column + j * interp->width, column};
+    return stencil;
 }
 
-/* The pole of a place whose `pole` is not 0. */
-static inline const srp_interp_pole *srp_interp_pole_of(const srp_interp *interp,
-                                                        const srp_interp_place *place) {
-    return &interp->poles[place->pole > 0];
-}
-
-/* theta / sin theta, 1 at the pole. */
-static inline double srp_interp_arc_ratio(const srp_interp_place *place) {
-    return place->cos_el > 0.0 ? place->theta / place->cos_el : 1.0;
-}
+/* Sets columns, rows and what follows from them. */
+void srp_interp_set_grid(srp_interp *interp, uint32_t columns, uint32_t rows);
 
 /* Sets slope of both poles from a few nodes, evenly spread over the rows next to them. */
 void srp_interp_fit_slopes(srp_interp *interp);

@@ -1,123 +1,97 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * From a direction to its place in the grid.
- *
- * Angles are arc sines of the smaller of sine and cosine, hence of angles within 45 degrees:
- * the nearest of 33 reference angles, and the series of arcsin for the small rest. Nothing is
- * branched on that a random direction would make the processor guess wrong. Error below 3e-16 rad;
- * near 0, hence near the poles, that relative to the angle.
- */
-#include "interp_internal.h"
+#include "interp_locate.h"
 
-#include <srp/const.h>
-
-#include <math.h>
-
-/* Of length 1 to 1e-9, as srp_prepared_respond() takes it. */
-static const double UNIT_TOLERANCE = 2e-9;
-/* Closer to a pole than this, squares of coordinates lose digits; nothing else changes there. */
-static const double AT_POLE = 1e-150;
-
-/* Sine and cosine of k pi / 128. */
-static const double REFERENCE[33][2] = {
-    {0x0.0p+0, 0x1.0000000000000p+0},
-    {0x1.92155f7a3667ep-6, 0x1.ffd886084cd0dp-1},
-    {0x1.91f65f10dd814p-5, 0x1.ff621e3796d7ep-1},
-    {0x1.2d52092ce19f6p-4, 0x1.fe9cdad01883ap-1},
-    {0x1.917a6bc29b42cp-4, 0x1.fd88da3d12526p-1},
-    {0x1.f564e56a9730ep-4, 0x1.fc26470e19fd3p-1},
-    {0x1.2c8106e8e613ap-3, 0x1.fa7557f08a517p-1},
-    {0x1.5e214448b3fc6p-3, 0x1.f8764fa714ba9p-1},
-    {0x1.8f8b83c69a60bp-3, 0x1.f6297cff75cb0p-1},
-    {0x1.c0b826a7e4f63p-3, 0x1.f38f3ac64e589p-1},
-    {0x1.f19f97b215f1bp-3, 0x1.f0a7efb9230d7p-1},
-    {0x1.111d262b1f677p-2, 0x1.ed740e7684963p-1},
-    {0x1.294062ed59f06p-2, 0x1.e9f4156c62ddap-1},
-    {0x1.4135c94176601p-2, 0x1.e6288ec48e112p-1},
-    {0x1.58f9a75ab1fddp-2, 0x1.e212104f686e5p-1},
-    {0x1.7088530fa459fp-2, 0x1.ddb13b6ccc23cp-1},
-    {0x1.87de2a6aea963p-2, 0x1.d906bcf328d46p-1},
-    {0x1.9ef7943a8ed8ap-2, 0x1.d4134d14dc93ap-1},
-    {0x1.b5d1009e15cc0p-2, 0x1.ced7af43cc773p-1},
-    {0x1.cc66e9931c45ep-2, 0x1.c954b213411f5p-1},
-    {0x1.e2b5d3806f63bp-2, 0x1.c38b2f180bdb1p-1},
-    {0x1.f8ba4dbf89abap-2, 0x1.bd7c0ac6f952ap-1},
-    {0x1.073879922ffeep-1, 0x1.b728345196e3ep-1},
-    {0x1.11eb3541b4b23p-1, 0x1.b090a58150200p-1},
-    {0x1.1c73b39ae68c8p-1, 0x1.a9b66290ea1a3p-1},
-    {0x1.26d054cdd12dfp-1, 0x1.a29a7a0462782p-1},
-    {0x1.30ff7fce17035p-1, 0x1.9b3e047f38741p-1},
-    {0x1.3affa292050b9p-1, 0x1.93a22499263fbp-1},
-    {0x1.44cf325091dd6p-1, 0x1.8bc806b151741p-1},
-    {0x1.4e6cabbe3e5e9p-1, 0x1.83b0e0bff976ep-1},
-    {0x1.57d69348ceca0p-1, 0x1.7b5df226aafafp-1},
-    {0x1.610b7551d2cdfp-1, 0x1.72d0837efff96p-1},
-    {0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
+const double srp_interp_reference[SRP_INTERP_REFERENCES][4] = {
+    {0x0.0p+0, 0x1.0000000000000p+0, 0x0.0p+0, 0.0},
+    {0x1.0000000000000p-7, 0x1.fffbfffbfff80p-1, 0x1.0000aaabdde0cp-7, 0.0},
+    {0x1.0000000000000p-6, 0x1.ffefffbffdfffp-1, 0x1.0002aabdde94cp-6, 0.0},
+    {0x1.8000000000000p-6, 0x1.ffdbfebbe9360p-1, 0x1.80090091d9024p-6, 0.0},
+    {0x1.0000000000000p-5, 0x1.ffbffbff7fec0p-1, 0x1.000aabde0b9c8p-5, 0.0},
+    {0x1.4000000000000p-5, 0x1.ff9bf63a1740bp-1, 0x1.4014d8ffaf8afp-5, 0.0},
+    {0x1.8000000000000p-5, 0x1.ff6febba4bfeap-1, 0x1.8024091fdb0a9p-5, 0.0},
+    {0x1.c000000000000p-5, 0x1.ff3bda6d9c950p-1, 0x1.c0393e65c2c93p-5, 0.0},
+    {0x1.0000000000000p-4, 0x1.feffbfdfebf1fp-1, 0x1.002abde953619p-4, 0.0},
+    {0x1.2000000000000p-4, 0x1.febb993aecf99p-1, 0x1.203ce2b380cd3p-4, 0.0},
+    {0x1.4000000000000p-4, 0x1.fe6f634576477p-1, 0x1.405390240e6fdp-4, 0.0},
+    {0x1.6000000000000p-4, 0x1.fe1b1a62bddadp-1, 0x1.606f49730ccc5p-4, 0.0},
+    {0x1.8000000000000p-4, 0x1.fdbeba917c3f5p-1, 0x1.809092913e52ep-4, 0.0},
+    {0x1.a000000000000p-4, 0x1.fd5a3f6af6b74p-1, 0x1.a0b7f03ba78acp-4, 0.0},
+    {0x1.c000000000000p-4, 0x1.fceda421efdb5p-1, 0x1.c0e5e80f7172dp-4, 0.0},
+    {0x1.e000000000000p-4, 0x1.fc78e3817e16ep-1, 0x1.e11b009e269b5p-4, 0.0},
+    {0x1.0000000000000p-3, 0x1.fbfbf7ebc755fp-1, 0x1.00abe0c129e1ep-3, 0.0},
+    {0x1.1000000000000p-3, 0x1.fb76db58a1299p-1, 0x1.10ce59ba4a8c4p-3, 0.0},
+    {0x1.2000000000000p-3, 0x1.fae987541497fp-1, 0x1.20f530308cc20p-3, 0.0},
+    {0x1.3000000000000p-3, 0x1.fa53f4fcc4b79p-1, 0x1.3120a9bed2f46p-3, 0.0},
+    {0x1.4000000000000p-3, 0x1.f9b61d0237250p-1, 0x1.41510cb011423p-3, 0.0},
+    {0x1.5000000000000p-3, 0x1.f90ff7a2fd4d2p-1, 0x1.5186a00ade974p-3, 0.0},
+    {0x1.6000000000000p-3, 0x1.f8617caabd6f6p-1, 0x1.61c1ab9d55d30p-3, 0.0},
+    {0x1.7000000000000p-3, 0x1.f7aaa3701a270p-1, 0x1.720278094cd3cp-3, 0.0},
+    {0x1.8000000000000p-3, 0x1.f6eb62d27730dp-1, 0x1.82494ed0e78fcp-3, 0.0},
+    {0x1.9000000000000p-3, 0x1.f623b1379a09bp-1, 0x1.92967a638db38p-3, 0.0},
+    {0x1.a000000000000p-3, 0x1.f553848924e81p-1, 0x1.a2ea462b4998ep-3, 0.0},
+    {0x1.b000000000000p-3, 0x1.f47ad231ea746p-1, 0x1.b344fe9a97c4dp-3, 0.0},
+    {0x1.c000000000000p-3, 0x1.f3998f1b1886cp-1, 0x1.c3a6f13aae84bp-3, 0.0},
+    {0x1.d000000000000p-3, 0x1.f2afafa9380f9p-1, 0x1.d4106cba45b08p-3, 0.0},
+    {0x1.e000000000000p-3, 0x1.f1bd27b9002c4p-1, 0x1.e481c0fce7134p-3, 0.0},
+    {0x1.f000000000000p-3, 0x1.f0c1ea9bfa45fp-1, 0x1.f4fb3f2ad079bp-3, 0.0},
+    {0x1.0000000000000p-2, 0x1.efbdeb14f4edap-1, 0x1.02be9ce0b87cdp-2, 0.0},
+    {0x1.0800000000000p-2, 0x1.eeb11b5442ff1p-1, 0x1.0b04025245cccp-2, 0.0},
+    {0x1.1000000000000p-2, 0x1.ed9b6cf3c4663p-1, 0x1.134dfa9805147p-2, 0.0},
+    {0x1.1800000000000p-2, 0x1.ec7cd0f2b5ae0p-1, 0x1.1b9cb12545e62p-2, 0.0},
+    {0x1.2000000000000p-2, 0x1.eb5537b1434dap-1, 0x1.23f0523c5dc2bp-2, 0.0},
+    {0x1.2800000000000p-2, 0x1.ea2490ebdd6b8p-1, 0x1.2c490af8bde81p-2, 0.0},
+    {0x1.3000000000000p-2, 0x1.e8eacbb648910p-1, 0x1.34a709597aab1p-2, 0.0},
+    {0x1.3800000000000p-2, 0x1.e7a7d6766784bp-1, 0x1.3d0a7c4c4bd9cp-2, 0.0},
+    {0x1.4000000000000p-2, 0x1.e65b9edeba38ep-1, 0x1.457393b90e2aap-2, 0.0},
+    {0x1.4800000000000p-2, 0x1.e50611e88d6b5p-1, 0x1.4de2808dce513p-2, 0.0},
+    {0x1.5000000000000p-2, 0x1.e3a71bcdd63dep-1, 0x1.565774cb66f02p-2, 0.0},
+    {0x1.5800000000000p-2, 0x1.e23ea802b4b1ap-1, 0x1.5ed2a392bb50fp-2, 0.0},
+    {0x1.6000000000000p-2, 0x1.e0cca12e97895p-1, 0x1.675441329986ep-2, 0.0},
+    {0x1.6800000000000p-2, 0x1.df50f124fba75p-1, 0x1.6fdc83364f719p-2, 0.0},
+    {0x1.7000000000000p-2, 0x1.ddcb80ddc085bp-1, 0x1.786ba074fef93p-2, 0.0},
+    {0x1.7800000000000p-2, 0x1.dc3c386d0ae09p-1, 0x1.8101d121bed2dp-2, 0.0},
+    {0x1.8000000000000p-2, 0x1.daa2fefaae1d8p-1, 0x1.899f4edc962d3p-2, 0.0},
+    {0x1.8800000000000p-2, 0x1.d8ffbab9145d4p-1, 0x1.924454c462cc4p-2, 0.0},
+    {0x1.9000000000000p-2, 0x1.d75250db9c792p-1, 0x1.9af11f89ba61cp-2, 0.0},
+    {0x1.9800000000000p-2, 0x1.d59aa58c6471cp-1, 0x1.a3a5ed82d9537p-2, 0.0},
+    {0x1.a000000000000p-2, 0x1.d3d89be176072p-1, 0x1.ac62fec0b2a92p-2, 0.0},
+    {0x1.a800000000000p-2, 0x1.d20c15d14a4e5p-1, 0x1.b5289525368abp-2, 0.0},
+    {0x1.b000000000000p-2, 0x1.d034f42698214p-1, 0x1.bdf6f47ae6904p-2, 0.0},
+    {0x1.b800000000000p-2, 0x1.ce5316736032ep-1, 0x1.c6ce628dd132cp-2, 0.0},
+    {0x1.c000000000000p-2, 0x1.cc665b0328622p-1, 0x1.cfaf27460fe9fp-2, 0.0},
+    {0x1.c800000000000p-2, 0x1.ca6e9ecc569b9p-1, 0x1.d8998cc3e6049p-2, 0.0},
+    {0x1.d000000000000p-2, 0x1.c86bbd609a260p-1, 0x1.e18ddf7da106bp-2, 0.0},
+    {0x1.d800000000000p-2, 0x1.c65d90dc509f4p-1, 0x1.ea8c6e5f5e67fp-2, 0.0},
+    {0x1.e000000000000p-2, 0x1.c443f1d4d22afp-1, 0x1.f3958aecddef4p-2, 0.0},
+    {0x1.e800000000000p-2, 0x1.c21eb7458e5ccp-1, 0x1.fca989658baafp-2, 0.0},
+    {0x1.f000000000000p-2, 0x1.bfedb67be13b3p-1, 0x1.02e46075785a1p-1, 0.0},
+    {0x1.f800000000000p-2, 0x1.bdb0c30185485p-1, 0x1.0779c5d4df4b8p-1, 0.0},
+    {0x1.0000000000000p-1, 0x1.bb67ae8584caap-1, 0x1.0c152382d7366p-1, 0.0},
+    {0x1.0400000000000p-1, 0x1.b91248c38986bp-1, 0x1.10b6a9e43942fp-1, 0.0},
+    {0x1.0800000000000p-1, 0x1.b6b05f6966b9bp-1, 0x1.155e8b2a00052p-1, 0.0},
+    {0x1.0c00000000000p-1, 0x1.b441bdfab5580p-1, 0x1.1a0cfb6c3e9ebp-1, 0.0},
+    {0x1.1000000000000p-1, 0x1.b1c62db2564fep-1, 0x1.1ec230c714a96p-1, 0.0},
+    {0x1.1400000000000p-1, 0x1.af3d7561a9c43p-1, 0x1.237e6379cdfc7p-1, 0.0},
+    {0x1.1800000000000p-1, 0x1.aca7594d44cbdp-1, 0x1.2841ce0862975p-1, 0.0},
+    {0x1.1c00000000000p-1, 0x1.aa039b06e926dp-1, 0x1.2d0cad5f90e20p-1, 0.0},
+    {0x1.2000000000000p-1, 0x1.a751f9447b724p-1, 0x1.31df40fbd31cdp-1, 0.0},
+    {0x1.2400000000000p-1, 0x1.a4922fb3ac8c2p-1, 0x1.36b9cb13786e1p-1, 0.0},
+    {0x1.2800000000000p-1, 0x1.a1c3f6ca01f29p-1, 0x1.3b9c90c43296dp-1, 0.0},
+    {0x1.2c00000000000p-1, 0x1.9ee70390dec3dp-1, 0x1.4087da4473296p-1, 0.0},
+    {0x1.3000000000000p-1, 0x1.9bfb076d236ebp-1, 0x1.457bf318fe517p-1, 0.0},
+    {0x1.3400000000000p-1, 0x1.98ffafe1ece2fp-1, 0x1.4a792a4f26152p-1, 0.0},
+    {0x1.3800000000000p-1, 0x1.95f4a64decda8p-1, 0x1.4f7fd2bc2fb34p-1, 0.0},
+    {0x1.3c00000000000p-1, 0x1.92d98fa2c355ep-1, 0x1.5490434275b92p-1, 0.0},
+    {0x1.4000000000000p-1, 0x1.8fae0c15ad38ap-1, 0x1.59aad71ced00fp-1, 0.0},
+    {0x1.4400000000000p-1, 0x1.8c71b6c8c49b4p-1, 0x1.5ecfee31c96e7p-1, 0.0},
+    {0x1.4800000000000p-1, 0x1.8924256bf4545p-1, 0x1.63ffed6d198f6p-1, 0.0},
+    {0x1.4c00000000000p-1, 0x1.85c4e7d4a0bb1p-1, 0x1.693b3f244ee17p-1, 0.0},
+    {0x1.5000000000000p-1, 0x1.8253878ae2e09p-1, 0x1.6e825383cc40bp-1, 0.0},
+    {0x1.5400000000000p-1, 0x1.7ecf874b086dfp-1, 0x1.73d5a107bde74p-1, 0.0},
+    {0x1.5800000000000p-1, 0x1.7b386279d7bf3p-1, 0x1.7935a501afa78p-1, 0.0},
+    {0x1.5c00000000000p-1, 0x1.778d8c89dc27cp-1, 0x1.7ea2e42c9027ap-1, 0.0},
+    {0x1.6000000000000p-1, 0x1.73ce704fb7b23p-1, 0x1.841deb5114bb4p-1, 0.0},
+    {0x1.6400000000000p-1, 0x1.6ffa6f4323c0dp-1, 0x1.89a74ffcc34a4p-1, 0.0},
+    {0x1.6800000000000p-1, 0x1.6c10e0a9e5d65p-1, 0x1.8f3fb14e496b4p-1, 0.0},
+    {0x1.6c00000000000p-1, 0x1.681110a985d4dp-1, 0x1.94e7b8da3cf7ap-1, 0.0},
 };
-
-/* Angle [rad] of a point of the unit circle, 0 <= low <= high; low is its sine. */
-static double octant_angle(double low, double high) {
-    double square = low * low;
-    double rough = low * (1.0 + square * (0.15614 + 0.1306 * square)); /* to 5e-4 */
-    int k = (int)(rough * (128.0 / SRP_PI) + 0.5);
-    double x = REFERENCE[k][1] * low - REFERENCE[k][0] * high; /* |x| < 0.0130 */
-    double xx = x * x;
-    double series = 1.0 / 6.0 + xx * (3.0 / 40.0 + xx * (5.0 / 112.0 + xx * (35.0 / 1152.0)));
-    return (double)k * (SRP_PI / 128.0) + (x + x * xx * series);
-}
-
-/* Azimuth in columns from -180 degrees: BASE quarters of a turn, plus or minus the octant's angle.
- * By: whether |sine| > |cosine|, cosine < 0, sine < 0. */
-static const double AZ_BASE[8] = {2, 2, 4, 0, 3, 1, 3, 1};
-static const double AZ_SIGN[8] = {1, -1, -1, 1, -1, 1, 1, -1};
-/* Elevation in rows from -90 degrees, likewise, in quarters; whether |sine| > cosine, sine < 0. */
-static const double EL_BASE[4] = {1, 1, 2, 0};
-static const double EL_SIGN[4] = {1, -1, -1, 1};
-
-static void locate_azimuth(const srp_interp *interp, srp_interp_place *place) {
-    double c = fabs(place->cos_az), s = fabs(place->sin_az);
-    bool swap = s > c;
-    int k = 4 * swap + 2 * (place->cos_az < 0.0) + (place->sin_az < 0.0);
-    double angle = octant_angle(swap ? c : s, swap ? s : c);
-    double u = 0.25 * AZ_BASE[k] * interp->columns + AZ_SIGN[k] * angle * interp->columns_per_rad;
-    int last = (int)interp->columns - 1, i = (int)u;
-    i = i > last ? last : i;
-    place->i = (uint32_t)i;
-    place->p = u - i;
-}
-
-static void locate_elevation(const srp_interp *interp, srp_interp_place *place) {
-    double c = place->cos_el, s = fabs(place->s.z);
-    bool swap = s > c;
-    int k = 2 * swap + (place->s.z < 0.0);
-    double angle = octant_angle(swap ? c : s, swap ? s : c);
-    double v = 0.5 * EL_BASE[k] * interp->rows + EL_SIGN[k] * angle * interp->rows_per_rad;
-    int last = (int)interp->rows - 1, j = (int)v;
-    j = j > last ? last : j;
-    place->j = (uint32_t)j;
-    place->q = v - j;
-    place->theta = swap ? angle : 0.5 * SRP_PI - angle;
-    place->pole = j == last && (j > 0 || place->s.z > 0.0) ? 1 : j == 0 ? -1 : 0;
-}
-
-bool srp_interp_locate(const srp_interp *interp, srp_vec3 s, srp_interp_place *place) {
-    double excess = srp_vec3_dot(s, s) - 1.0;
-    if (!(fabs(excess) <= UNIT_TOLERANCE)) {
-        return false;
-    }
-    place->s = srp_vec3_scale(1.0 - 0.5 * excess, s);
-    double x = place->s.x, y = place->s.y, h = sqrt(x * x + y * y);
-    if (h > AT_POLE) {
-        double inverse = 1.0 / h;
-        place->cos_az = x * inverse;
-        place->sin_az = y * inverse;
-        place->cos_el = h;
-    } else {
-        place->cos_az = 1.0;
-        place->sin_az = 0.0;
-        place->cos_el = 0.0;
-    }
-    locate_azimuth(interp, place);
-    locate_elevation(interp, place);
-    return true;
-}

@@ -170,18 +170,20 @@ static srp_status prepare(srp_interp *interp, srp_error *error) {
     return status;
 }
 
-SRP_CLONE_PART cubic_weights weights(double x) {
+SRP_CLONE_PART void value_weights(double x, double w[4]) {
     double y = 1.0 - x, xx = x * x, yy = y * y;
-    cubic_weights w;
-    w.value[0] = yy * y / 6.0;
-    w.value[1] = 2.0 / 3.0 - 0.5 * xx * (2.0 - x);
-    w.value[2] = 2.0 / 3.0 - 0.5 * yy * (2.0 - y);
-    w.value[3] = xx * x / 6.0;
-    w.slope[0] = -0.5 * yy;
-    w.slope[1] = x * (1.5 * x - 2.0);
-    w.slope[2] = y * (2.0 - 1.5 * y);
-    w.slope[3] = 0.5 * xx;
-    return w;
+    w[0] = yy * y * (1.0 / 6.0);
+    w[1] = 2.0 / 3.0 - 0.5 * xx * (2.0 - x);
+    w[2] = 2.0 / 3.0 - 0.5 * yy * (2.0 - y);
+    w[3] = xx * x * (1.0 / 6.0);
+}
+
+SRP_CLONE_PART void slope_weights(double x, double w[4]) {
+    double y = 1.0 - x;
+    w[0] = -0.5 * y * y;
+    w[1] = x * (1.5 * x - 2.0);
+    w[2] = y * (2.0 - 1.5 * y);
+    w[3] = 0.5 * x * x;
 }
 
 /* 1 - 10 d^3 + 15 d^4 - 6 d^5. */
@@ -191,19 +193,46 @@ static cubic_fade fade(double d) {
     return r;
 }
 
-SRP_TARGET_CLONES
-static void eval(const srp_interp *interp, const srp_interp_place *place, double *value,
-                 double *by_az, double *by_el) {
-    cubic_job job = {.az = weights(place->p), .value = value, .by_az = by_az, .by_el = by_el};
-    srp_interp_stencil(interp, place->i, place->j, job.column);
-    if (place->pole == 0) {
-        job.el = weights(place->q);
-        cubic_eval(interp, place, &job);
-    } else {
-        cubic_at_pole(interp, place, &job, polynomial, fade(place->theta * interp->rows_per_rad),
-                      true);
+static void eval_at_pole(const srp_interp *interp, const srp_interp_place *place,
+                         const srp_interp_target *to) {
+    double x[4], dx[4], value[SRP_INTERP_WIDTH_FT];
+    double by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
+    value_weights(place->p, x);
+    slope_weights(place->p, dx);
+    cubic_fade to_fit = fade(srp_interp_theta(place) * interp->rows_per_rad);
+    cubic_at_pole(interp, place, x, dx, polynomial, to_fit, true, value,
+                  to->jacobian != NULL ? by_az : NULL, by_el);
+    srp_interp_give_value(interp, value, to);
+    if (to->jacobian != NULL) {
+        srp_interp_give_slopes(interp, place, by_az, by_el, to->jacobian);
     }
-    cubic_add_linear(interp, place->s, value, interp->width);
+}
+
+SRP_TARGET_CLONES
+static void slopes_inside(const srp_interp *interp, const srp_interp_place *place,
+                          srp_interp_jacobian *jacobian) {
+    double by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
+    cubic_slopes_inside(interp, place, value_weights, slope_weights, by_az, by_el);
+    srp_interp_give_slopes(interp, place, by_az, by_el, jacobian);
+}
+
+SRP_TARGET_CLONES
+static bool eval(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
+    srp_interp_place place;
+    if (!srp_interp_locate(interp, s, &place)) {
+        return false;
+    }
+    if (srp_interp_pole_at(interp, &place) != 0) {
+        eval_at_pole(interp, &place, to);
+        return true;
+    }
+    double value[SRP_INTERP_WIDTH_FT];
+    cubic_value_inside(interp, &place, value_weights, value);
+    srp_interp_give_value(interp, value, to);
+    if (to->jacobian != NULL) {
+        slopes_inside(interp, &place, to->jacobian);
+    }
+    return true;
 }
 
 const srp_interp_scheme srp_interp_spline = {

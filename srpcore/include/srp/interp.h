@@ -27,7 +27,19 @@ SRP_BEGIN_DECLS
 
 typedef struct srp_interp srp_interp;
 typedef struct srp_interp_scheme srp_interp_scheme;
-struct srp_interp_place; /* where a direction lies in the grid; internal */
+
+/* Derivatives with respect to the unit vector s: row r, column c is d f_r / d s_c. They are those
+ * of f(s / |s|), hence tangential: df s = 0. */
+typedef struct srp_interp_jacobian {
+    double df[3][3]; /* [m^2] */
+    double dt[3][3]; /* [m^3] */
+} srp_interp_jacobian;
+
+/* Where a look-up leaves what it finds. */
+typedef struct srp_interp_target {
+    srp_vec3 *f, *t;               /* t may be NULL */
+    srp_interp_jacobian *jacobian; /* may be NULL */
+} srp_interp_target;
 
 /* What a scheme is like; bits. */
 enum {
@@ -44,10 +56,8 @@ struct srp_interp_scheme {
     unsigned steps_min; /* fewest steps of azimuth that it takes; half as many of elevation */
     /* From the nodes, copied into `interp`, to what eval needs. */
     srp_status (*prepare)(srp_interp *interp, srp_error *error);
-    /* Values of all components, and their derivatives along growing azimuth and elevation [1/rad of
-     * arc] unless by_az is NULL. */
-    void (*eval)(const srp_interp *interp, const struct srp_interp_place *place, double *value,
-                 double *by_az, double *by_el);
+    /* The look-up; false unless s is a unit vector. */
+    bool (*eval)(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to);
 };
 
 /* Linear in azimuth and elevation, as GMAT's reader does: continuous, order 2. */
@@ -78,13 +88,6 @@ SRP_API void srp_interp_destroy(srp_interp *interp);
 SRP_API const srp_interp_scheme *srp_interp_get_scheme(const srp_interp *interp);
 /* Whether the table knows moments; without them t and its derivatives are 0. */
 SRP_API bool srp_interp_has_moment(const srp_interp *interp);
-
-/* Derivatives with respect to the unit vector s: row r, column c is d f_r / d s_c. They are those
- * of f(s / |s|), hence tangential: df s = 0. */
-typedef struct srp_interp_jacobian {
-    double df[3][3]; /* [m^2] */
-    double dt[3][3]; /* [m^3] */
-} srp_interp_jacobian;
 
 /*
  * Value, and derivatives if asked for, at one direction.
