@@ -21,6 +21,9 @@
 static const srp_interp_scheme *const SCHEMES[] = {&srp_interp_bilinear, &srp_interp_bicubic,
                                                    &srp_interp_spline};
 
+_Static_assert(sizeof SCHEMES / sizeof SCHEMES[0] == SRP_TABLE_SCHEMES,
+               "tables keep the errors of all schemes");
+
 const srp_interp_scheme *const *srp_interp_list(size_t *count) {
     *count = sizeof SCHEMES / sizeof SCHEMES[0];
     return SCHEMES;

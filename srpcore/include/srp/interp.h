@@ -22,6 +22,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 SRP_BEGIN_DECLS
 
@@ -102,6 +103,23 @@ SRP_API bool srp_interp_has_moment(const srp_interp *interp);
 SRP_API SRP_CHECK srp_status srp_interp_eval(const srp_interp *interp, srp_vec3 s_body, srp_vec3 *f,
                                              srp_vec3 *t, srp_interp_jacobian *jacobian,
                                              srp_error *error);
+
+/* ---- How wrong is it? ----------------------------------------------------------------------- */
+
+/* `count` directions spread evenly over the sphere, of no grid, turned by `seed`: a Kronecker
+ * sequence in the square (M. Roberts' R2), mapped by equal areas. The first n of a longer list are
+ * the list of n. */
+SRP_API void srp_interp_directions(size_t count, uint64_t seed, srp_vec3 *s_body);
+
+/*
+ * Errors of all schemes on a complete table in `count` >= 1 directions whose responses are known.
+ * `seed` is noted in *out. SRP_BAD_ARGUMENT (incomplete table, a direction, no direction),
+ * SRP_BAD_DATA, SRP_NO_MEMORY. srp_table_set_check() keeps it with the table.
+ */
+SRP_API SRP_CHECK srp_status srp_interp_check(const srp_table *table, size_t count,
+                                              const srp_vec3 *s_body, const srp_response *responses,
+                                              uint64_t seed, srp_table_check *out,
+                                              srp_error *error);
 
 SRP_END_DECLS
 

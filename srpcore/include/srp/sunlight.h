@@ -60,10 +60,11 @@ typedef struct srp_body {
  * bodies hide what their disks cover together: a part that two of them cover counts once. (Of more
  * than 16 that each cover a part at once, the others count as if they overlapped nothing.)
  *
- * Continuous with its derivative, also where disks begin and cease to touch. Inside a body, its disk is the half of the sky on the side of its centre, as on its
- * surface, so that a landed spacecraft has day and night; at the very centre it is dark. A body
- * whose centre is farther away than the Sun's hides nothing. Inside the Sun, its disk is half the
- * sky; at its centre, nothing stands before it. NaN for a NaN or a radius below 0.
+ * Continuous with its derivative, also where disks begin and cease to touch. Inside a body, its
+ * disk is the half of the sky on the side of its centre, as on its surface, so that a landed
+ * spacecraft has day and night; at the very centre it is dark. A body whose centre is farther away
+ * than the Sun's hides nothing. Inside the Sun, its disk is half the sky; at its centre, nothing
+ * stands before it. NaN for a NaN or a radius below 0.
  */
 SRP_API double srp_sunlight_fraction(srp_vec3 sun, double sun_radius, size_t count,
                                      const srp_body *bodies);
