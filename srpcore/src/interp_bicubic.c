@@ -60,45 +60,58 @@ static cubic_fade fade(double d) {
     return r;
 }
 
-static void eval_at_pole(const srp_interp *interp, const srp_interp_place *place,
-                         const srp_interp_target *to) {
+/* Looks for the place again, so that the usual look-up need not keep it for this one. */
+static bool eval_at_pole(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
+    srp_interp_place place;
     double x[4], dx[4], value[SRP_INTERP_WIDTH_FT];
     double by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
-    value_weights(place->p, x);
-    slope_weights(place->p, dx);
-    cubic_fade to_fit = fade(srp_interp_theta(place) * interp->rows_per_rad);
-    cubic_at_pole(interp, place, x, dx, polynomial, to_fit, false, value,
+    if (!srp_interp_locate(interp, s, &place)) {
+        return false;
+    }
+    value_weights(place.p, x);
+    slope_weights(place.p, dx);
+    cubic_fade to_fit = fade(srp_interp_theta(&place) * interp->rows_per_rad);
+    cubic_at_pole(interp, &place, x, dx, polynomial, to_fit, false, value,
                   to->jacobian != NULL ? by_az : NULL, by_el);
     srp_interp_give_value(interp, value, to);
     if (to->jacobian != NULL) {
-        srp_interp_give_slopes(interp, place, by_az, by_el, to->jacobian);
+        srp_interp_give_slopes(interp, &place, by_az, by_el, to->jacobian);
     }
+    return true;
 }
 
 SRP_TARGET_CLONES
-static void slopes_inside(const srp_interp *interp, const srp_interp_place *place,
-                          srp_interp_jacobian *jacobian) {
-    double by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
-    cubic_slopes_inside(interp, place, value_weights, slope_weights, by_az, by_el);
-    srp_interp_give_slopes(interp, place, by_az, by_el, jacobian);
+static bool eval_slopes(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
+    srp_interp_place place;
+    double value[SRP_INTERP_WIDTH_FT], by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
+    if (!srp_interp_locate(interp, s, &place)) {
+        return false;
+    }
+    if (srp_interp_pole_at(interp, &place) != 0) {
+        return eval_at_pole(interp, s, to);
+    }
+    cubic_value_inside(interp, &place, value_weights, value);
+    cubic_slopes_inside(interp, &place, value_weights, slope_weights, by_az, by_el);
+    srp_interp_give_value(interp, value, to);
+    srp_interp_give_slopes(interp, &place, by_az, by_el, to->jacobian);
+    return true;
 }
 
 SRP_TARGET_CLONES
 static bool eval(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
     srp_interp_place place;
+    double value[SRP_INTERP_WIDTH_FT];
+    if (to->jacobian != NULL) {
+        return eval_slopes(interp, s, to);
+    }
     if (!srp_interp_locate(interp, s, &place)) {
         return false;
     }
     if (srp_interp_pole_at(interp, &place) != 0) {
-        eval_at_pole(interp, &place, to);
-        return true;
+        return eval_at_pole(interp, s, to);
     }
-    double value[SRP_INTERP_WIDTH_FT];
     cubic_value_inside(interp, &place, value_weights, value);
     srp_interp_give_value(interp, value, to);
-    if (to->jacobian != NULL) {
-        slopes_inside(interp, &place, to->jacobian);
-    }
     return true;
 }
 

@@ -9,13 +9,6 @@ static srp_status prepare(srp_interp *interp, srp_error *error) {
     return SRP_OK;
 }
 
-/* The slope along azimuth per rad of arc in a cell with a pole, whose node is the same for both
- * columns: finite, however close the pole is. */
-static double by_az_at_pole(const srp_interp *interp, const srp_interp_place *place, double along) {
-    double rows = srp_interp_theta(place) * interp->rows_per_rad;
-    return place->cos_el > 0.0 ? along * interp->columns_per_rad * (rows / place->cos_el) : 0.0;
-}
-
 /* At the pole itself the cells meet like the faces of a pyramid; the plane that fits them counts.
  * Azimuth is 0 there. */
 static void plane_at_pole(const srp_interp *interp, const srp_interp_place *place, double *by_az,
@@ -34,15 +27,17 @@ static void slopes(const srp_interp *interp, const srp_interp_place *place, cons
     const size_t width = interp->width;
     const double p = place->p, q = place->q;
     const int sign = srp_interp_pole_at(interp, place);
+    const double el = interp->rows_per_rad;
+    /* Along azimuth the lower row counts by `low`, the upper one by `high`. With a pole at one of
+     * them, which is the same for both columns, the other's share is its distance in rows, over
+     * the same cosine: finite, however close the pole is. */
+    const double az = interp->columns_per_rad / (place->cos_el > 0.0 ? place->cos_el : 1.0);
+    const double rows = sign != 0 ? srp_interp_theta(place) * el : 0.0;
+    const double low = az * (sign > 0 ? rows : sign < 0 ? 0.0 : 1.0 - q);
+    const double high = az * (sign < 0 ? rows : sign > 0 ? 0.0 : q);
     for (size_t k = 0; k < width; ++k) {
-        by_el[k] =
-            ((1.0 - p) * (a[width + k] - a[k]) + p * (b[width + k] - b[k])) * interp->rows_per_rad;
-        double low = b[k] - a[k], high = b[width + k] - a[width + k];
-        if (sign == 0) {
-            by_az[k] = ((1.0 - q) * low + q * high) * interp->columns_per_rad / place->cos_el;
-        } else {
-            by_az[k] = by_az_at_pole(interp, place, sign > 0 ? low : high);
-        }
+        by_el[k] = el * ((1.0 - p) * (a[width + k] - a[k]) + p * (b[width + k] - b[k]));
+        by_az[k] = low * (b[k] - a[k]) + high * (b[width + k] - a[width + k]);
     }
     if (!(place->cos_el > 0.0)) {
         plane_at_pole(interp, place, by_az, by_el);
@@ -59,15 +54,33 @@ SRP_CLONE_PART void values(const srp_interp_place *place, const double *a, const
     }
 }
 
+/* The nodes at (i, j) and (i + 1, j). */
+SRP_CLONE_PART void corners(const srp_interp *interp, const srp_interp_place *place,
+                            const double **a, const double **b) {
+    srp_interp_stencil at = srp_interp_stencil_of(interp, place->i, place->j);
+    *a = at.first + at.column + interp->width;
+    *b = *a + at.column;
+}
+
+static void eval_slopes(const srp_interp *interp, const srp_vec3 *s,
+                        srp_interp_jacobian *jacobian) {
+    srp_interp_place place;
+    const double *a, *b;
+    if (srp_interp_locate(interp, s, &place)) {
+        corners(interp, &place, &a, &b);
+        slopes(interp, &place, a, b, jacobian);
+    }
+}
+
 SRP_TARGET_CLONES
 static bool eval(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
     srp_interp_place place;
     double value[SRP_INTERP_WIDTH_FT];
+    const double *a, *b;
     if (!srp_interp_locate(interp, s, &place)) {
         return false;
     }
-    srp_interp_stencil at = srp_interp_stencil_of(interp, place.i, place.j);
-    const double *a = at.first + at.column + interp->width, *b = a + at.column;
+    corners(interp, &place, &a, &b);
     if (interp->width == SRP_INTERP_WIDTH_F) {
         values(&place, a, b, SRP_INTERP_WIDTH_F, value);
     } else {
@@ -75,7 +88,7 @@ static bool eval(const srp_interp *interp, const srp_vec3 *s, const srp_interp_t
     }
     srp_interp_give_value(interp, value, to);
     if (to->jacobian != NULL) {
-        slopes(interp, &place, a, b, to->jacobian);
+        eval_slopes(interp, s, to->jacobian);
     }
     return true;
 }

@@ -4,8 +4,8 @@
  *
  * Angles are arc sines of the smaller of sine and cosine, hence of angles within 45 degrees: a
  * reference angle whose sine is a multiple of 1/128, and the series of arcsin for the small rest.
- * Nothing is branched on that a random direction would make the processor guess wrong. Error below
- * 3e-16 rad; near 0, hence near the poles, that relative to the angle.
+ * Nothing is branched on that a random direction would make the processor guess wrong. What is
+ * lost is a few roundings of the angle; near the poles, of the distance from them.
  */
 #ifndef SRP_SRC_INTERP_LOCATE_H
 #define SRP_SRC_INTERP_LOCATE_H
