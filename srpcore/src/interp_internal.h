@@ -66,7 +66,9 @@ typedef struct srp_interp_stencil {
 } srp_interp_stencil;
 
 /* Those of cell (i, j). All schemes get at nodes here and nowhere else, so that this is the place
- * where a table that is being filled can be asked for them. */
+ * where a table that is being filled can be asked for them. Besides these, the local schemes need
+ * the poles, bicubic the six nodes of the linear part, and cells with a pole those that
+ * srp_interp_fit_slopes() looks at. */
 static inline srp_interp_stencil srp_interp_stencil_of(const srp_interp *interp, uint32_t i,
                                                        uint32_t j) {
     size_t column = srp_interp_column_size(interp);
