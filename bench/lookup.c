@@ -250,11 +250,16 @@ static void run(const walk *w, srp_interp *const plain[OURS], srp_interp *const 
     printf("  GSL interp2d, bilinear           %6.1f\n", ns * best.linear);
     printf("  GSL spline2d, bicubic            %6.1f\n", ns * best.cubic);
     printf("  (atan2 and asin, not in GSL's    %6.1f)\n", ns * best.angles);
-    double demanded = w->name[0] == 'r' ? 8.0 : 5.0, ratio = best.cubic / best.ours[2][FORCE];
-    printf("  GSL's bicubic over our spline    %6.1f   demanded: at least %g %s\n", ratio, demanded,
-           ratio >= demanded ? "(held)" : "(MISSED)");
-    printf("  the same from a unit vector      %6.1f\n",
-           (best.cubic + best.angles) / best.ours[2][FORCE]);
+    /* A look-up of f and t gives two vectors. */
+    const double demanded = w->name[0] == 'r' ? 8.0 : 5.0;
+    const double ours[2] = {best.ours[2][FORCE], 0.5 * best.ours[2][FORCE_MOMENT]};
+    for (int k = 0; k < 2; ++k) {
+        double ratio = best.cubic / ours[k];
+        printf(
+            "  GSL's bicubic over our spline, time per vector%s %4.1f   demanded: at least %g %s\n",
+            k == 0 ? ", f alone:" : ", f and t: ", ratio, demanded,
+            ratio >= demanded ? "(held)" : "(MISSED)");
+    }
 }
 
 int main(void) {
