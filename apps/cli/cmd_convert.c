@@ -62,6 +62,8 @@ static int convert(const convert_options *options, const cli_restate_options *st
     srp_table *table = NULL;
     int status = cli_table_read(from, &table);
     if (status == CLI_DONE) {
+        srp_log log = cli_log();
+        srp_table_inspect(table, from, &log, NULL);
         status = check_signs(options, table, from);
     }
     if (status == CLI_DONE) {
@@ -96,7 +98,8 @@ const cli_command cli_command_convert = {
         "Reads a table and writes it in another format; the endings of the files choose the "
         "formats.\n\n"
         "Light can only push. A table that pulls over most of the sphere follows the opposite "
-        "sign convention and is refused; --flip turns it round.",
+        "sign convention and is refused; --flip turns it round. Rounded numbers, and nodes of a "
+        "pole that disagree, are warned about.",
     .examples = "srp convert box-wing.nc box-wing.spo\n"
                 "srp convert box-wing.spo box-wing.txt --mass 850\n"
                 "srp convert --flip wrong-sign.spo right-sign.spo",

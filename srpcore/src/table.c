@@ -241,6 +241,10 @@ srp_status srp_table_describe(srp_table *table, const char *title, const char *c
     return status;
 }
 
+void srp_table_set_check(srp_table *table, const srp_table_check *check) {
+    table->info.check = *check;
+}
+
 /* ---- Asking --------------------------------------------------------------------------------- */
 
 srp_grid srp_table_grid(const srp_table *table) {

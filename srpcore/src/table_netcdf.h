@@ -67,6 +67,9 @@ typedef struct srp_text_attribute {
 enum { SRP_TEXT_ATTRIBUTE_COUNT = 9 };
 extern const srp_text_attribute srp_table_texts[SRP_TEXT_ATTRIBUTE_COUNT];
 
+/* Attributes that hold the errors of srp_table_check, in the order of its schemes. */
+extern const char *const srp_table_check_names[SRP_TABLE_SCHEMES];
+
 srp_status srp_table_netcdf_write(const srp_table *table, const char *path, srp_error *error);
 srp_status srp_table_netcdf_read(const char *path, srp_table **out, srp_error *error);
 

@@ -30,7 +30,7 @@ offers 'convert' srp c
 offers 'table' srp help t
 offers '--distance-au' srp force --dis
 offers '--step' srp table --st
-offers '--mass --material --max-grid --method' srp table --m
+offers '--mass --material --max-error --max-grid --method' srp table --m
 offers '--help' srp convert --he
 offers 'cannonball' srp force --method ca
 offers 'cannonball' srp force --method = ca

@@ -10,6 +10,7 @@
 #include "shapes.h"
 #include "srp_check.h"
 
+#include <srp/interp.h>
 #include <srp/method.h>
 #include <srp/scene.h>
 #include <srp/table.h>
@@ -364,6 +365,15 @@ TRY_FORMAT(netcdf)
 TRY_FORMAT(spo)
 TRY_FORMAT(txt)
 
+static srp_status try_interp(srp_error *error) {
+    srp_interp *interp = (srp_interp *)NOT_TOUCHED;
+    srp_status status = srp_interp_create(&srp_interp_spline, filled, &interp, error);
+    if (status == SRP_OK) {
+        srp_interp_destroy(interp);
+    }
+    return status == SRP_OK || interp == (srp_interp *)NOT_TOUCHED ? status : SRP_MISMATCH;
+}
+
 static srp_status try_bvh(srp_error *error) {
     srp_bvh *bvh = (srp_bvh *)NOT_TOUCHED;
     srp_status status = srp_bvh_create(scene, 2, &bvh, error);
@@ -398,6 +408,7 @@ static const struct {
     {"raytrace", try_raytrace},
     {"table_fill", try_table_fill},
     {"table_reoptic", try_table_reoptic},
+    {"interp", try_interp},
     {"netcdf", try_netcdf},
     {"spo", try_spo},
     {"txt", try_txt},

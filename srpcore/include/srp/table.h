@@ -39,6 +39,21 @@ SRP_API srp_vec3 srp_direction_from_deg(double az_deg, double el_deg);
 
 typedef struct srp_table srp_table;
 
+/* Interpolation error over some directions, by one scheme; NAN where the scheme does not take the
+ * grid. t is 0 in tables without moments. */
+typedef struct srp_table_error {
+    double f_mean, f_max; /* of |difference of f| [m^2] */
+    double t_mean, t_max; /* of |difference of t| [m^3] */
+} srp_table_error;
+
+/* What is known of a table's interpolation error: see srp_interp_check() (srp/interp.h). */
+enum { SRP_TABLE_SCHEMES = 3 };
+typedef struct srp_table_check {
+    uint32_t count;                            /* directions that were computed; 0: not known */
+    uint64_t seed;                             /* of the directions */
+    srp_table_error errors[SRP_TABLE_SCHEMES]; /* in the order of srp_interp_list() */
+} srp_table_check;
+
 /* What a table tells about itself besides its numbers; strings are owned by the table. */
 typedef struct srp_table_info {
     const char *title;  /* e.g. the name of the model file */
@@ -61,6 +76,7 @@ typedef struct srp_table_info {
     bool has_error, has_moment, has_basis;
     bool has_bounce;  /* light that was reflected before is in f and t, and known apart */
     bool bounce_kept; /* that part is of the traced optics, not of those of the materials here */
+    srp_table_check check;
 } srp_table_info;
 
 /* An empty table for `prepared`'s scene and method. `with_basis` keeps per-material sums.
@@ -73,6 +89,9 @@ SRP_API void srp_table_destroy(srp_table *table);
 SRP_API SRP_CHECK srp_status srp_table_describe(srp_table *table, const char *title,
                                                 const char *command_line, srp_sunlight light,
                                                 double mass, srp_error *error);
+
+/* Keeps what a check found. */
+SRP_API void srp_table_set_check(srp_table *table, const srp_table_check *check);
 
 typedef struct srp_table_progress {
     /* Called from the calling thread before the first batch and after each; false cancels. done and
@@ -136,6 +155,21 @@ SRP_API double srp_table_pull_share(const srp_table *table);
 SRP_API SRP_CHECK srp_status srp_table_reoptic(const srp_table *table,
                                                const srp_materials *materials, bool keep_bounce,
                                                srp_table **out, srp_error *error);
+
+/* What may be odd about the numbers of a table, as of one that went through a file. */
+typedef struct srp_table_report {
+    double pole_spread[2]; /* [m^2] largest |f - mean| among the nodes of the south and north pole,
+                              which are one direction */
+    double seam_spread;    /* [m^2] largest |difference of f| between the ends of azimuth */
+    double quantum;        /* [m^2] power of ten that all components of f are multiples of, 0 when
+                              it is less than 1e-7 of the largest */
+    double f_max;          /* [m^2] largest |f| */
+} srp_table_report;
+
+/* Looks at a complete table. What an interpolant must make up for is sent to `log` (may be NULL) as
+ * warnings about the file `name`: spreads above 1e-9 of the largest |f|, and rounding. */
+SRP_API void srp_table_inspect(const srp_table *table, const char *name, const srp_log *log,
+                               srp_table_report *out);
 
 /* File formats. */
 enum {
