@@ -8,16 +8,15 @@
 
 #include <srp/vec3.h>
 
-#include <float.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-const cli_range CLI_ANY = {-DBL_MAX, DBL_MAX, false, "a number"};
-const cli_range CLI_POSITIVE = {0.0, DBL_MAX, true, "a number above 0"};
-const cli_range CLI_NOT_NEGATIVE = {0.0, DBL_MAX, false, "a number not below 0"};
+/* The library's own limits, within which every result is finite. */
+const cli_range CLI_POSITIVE = {1e-30, 1e30, "a number above 0 (1e-30 to 1e30)"};
+const cli_range CLI_NOT_NEGATIVE = {0.0, 1e30, "a number not below 0 (up to 1e30)"};
 
 enum { OPTION_HELP, OPTION_VERSION, COMMON_COUNT };
 
@@ -61,7 +60,7 @@ bool cli_set_text(const cli_option *option, void *target, const char *text) {
 }
 
 static bool in_range(const cli_range *range, double value) {
-    return value <= range->max && (range->above_min ? value > range->min : value >= range->min);
+    return value >= range->min && value <= range->max;
 }
 
 bool cli_set_number(const cli_option *option, void *target, const char *text) {
@@ -91,10 +90,20 @@ bool cli_set_bits(const cli_option *option, void *target, const char *text) {
     return true;
 }
 
+/* No coordinate is larger than the library takes. */
+static bool all_within(const double *value, size_t count) {
+    bool within = true;
+    for (size_t i = 0; i < count; ++i) {
+        within = within && fabs(value[i]) <= CLI_NOT_NEGATIVE.max;
+    }
+    return within;
+}
+
 bool cli_set_vector(const cli_option *option, void *target, const char *text) {
     double value[3];
-    if (!cli_read_numbers(text, 3, value)) {
-        return cli_reject(option, text, "three numbers X,Y,Z with commas and no blanks");
+    if (!cli_read_numbers(text, 3, value) || !all_within(value, 3)) {
+        return cli_reject(option, text,
+                          "three numbers X,Y,Z with commas and no blanks, each up to 1e30");
     }
     *(srp_vec3 *)field(option, target) = srp_vec3_make(value[0], value[1], value[2]);
     return true;
@@ -102,10 +111,12 @@ bool cli_set_vector(const cli_option *option, void *target, const char *text) {
 
 bool cli_set_window(const cli_option *option, void *target, const char *text) {
     double value[4];
-    if (!cli_read_numbers(text, 4, value) || !(value[0] < value[1]) || !(value[2] < value[3])) {
+    if (!cli_read_numbers(text, 4, value) || !all_within(value, 4) || !(value[0] < value[1]) ||
+        !(value[2] < value[3])) {
         return cli_reject(
             option, text,
-            "four numbers U0,U1,V0,V1 with U0 < U1 and V0 < V1, commas and no blanks");
+            "four numbers U0,U1,V0,V1 with U0 < U1 and V0 < V1, commas and no blanks, each up to "
+            "1e30");
     }
     memcpy(field(option, target), value, sizeof value);
     return true;

@@ -25,11 +25,10 @@ typedef uint64_t cli_given;
 /* What a number may be. */
 typedef struct cli_range {
     double min, max;
-    bool above_min;    /* min itself is out */
     const char *words; /* "a number above 0": what a message says was expected */
 } cli_range;
 
-extern const cli_range CLI_ANY, CLI_POSITIVE, CLI_NOT_NEGATIVE;
+extern const cli_range CLI_POSITIVE, CLI_NOT_NEGATIVE;
 
 /* Values that are given once per mention of an option, in order. Items point into argv. */
 typedef struct cli_list {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "error.h"
+#include "limits.h"
 #include "mesh_internal.h"
 #include "scene_internal.h"
 #include "text.h"
@@ -233,16 +234,9 @@ static void measure_bounds(srp_scene *scene) {
  * are noise; a few needles may be, but not a noticeable part of the surface. */
 #define RESOLUTION (0x1p14 * DBL_EPSILON)
 #define UNRESOLVED_SHARE_MAX 1e-6
-/* Products of a few lengths must stay within the range of a double [m]. */
-#define SIZE_MAX_METRES 1e60
 
 static srp_status check_resolution(const srp_scene *scene, srp_error *error) {
     double size = srp_vec3_norm(scene->centre) + scene->radius;
-    if (!(size < SIZE_MAX_METRES)) {
-        return srp_fail(error, SRP_BAD_DATA,
-                        "the mesh reaches out to %g m, expected less than %g m: is its unit right?",
-                        size, SIZE_MAX_METRES);
-    }
     double total = 0.0, unresolved = 0.0;
     for (size_t i = 0; i < scene->facet_count; ++i) {
         const srp_facet *facet = &scene->facets[i];
@@ -331,9 +325,10 @@ static srp_status check_plate(const srp_plate *plate, size_t number, srp_error *
     if (!(isfinite(length) && length > 0.0)) {
         return srp_fail(error, SRP_BAD_DATA, "plate %zu has no normal", number);
     }
-    if (!(isfinite(plate->area) && plate->area > 0.0)) {
-        return srp_fail(error, SRP_BAD_DATA, "plate %zu has area %g m^2, expected more than 0",
-                        number, plate->area);
+    if (!(plate->area > 0.0 && plate->area <= SRP_AREA_MAX)) {
+        return srp_fail(error, SRP_BAD_DATA,
+                        "plate %zu has area %g m^2, expected more than 0 and at most %g", number,
+                        plate->area, SRP_AREA_MAX);
     }
     return srp_optics_check(plate->optics, error);
 }
@@ -370,11 +365,13 @@ srp_status srp_scene_from_plates(const srp_plate *plates, size_t count, srp_scen
 }
 
 srp_status srp_scene_from_sphere(double cr, double area, srp_scene **out, srp_error *error) {
-    if (!(isfinite(cr) && cr >= 0.0)) {
-        return srp_fail(error, SRP_BAD_ARGUMENT, "coefficient Cr of %g, expected 0 or more", cr);
+    if (!SRP_WITHIN(cr, 0.0, SRP_CR_MAX)) {
+        return srp_fail(error, SRP_BAD_ARGUMENT, "coefficient Cr of %g, expected 0 to %g", cr,
+                        SRP_CR_MAX);
     }
-    if (!(isfinite(area) && area > 0.0)) {
-        return srp_fail(error, SRP_BAD_ARGUMENT, "area of %g m^2, expected more than 0", area);
+    if (!(area > 0.0 && area <= SRP_AREA_MAX)) {
+        return srp_fail(error, SRP_BAD_ARGUMENT,
+                        "area of %g m^2, expected more than 0 and at most %g", area, SRP_AREA_MAX);
     }
     srp_scene *scene = scene_new(SRP_SHAPE_SPHERE, 0);
     if (scene == NULL) {

@@ -100,9 +100,13 @@ static void print_node(srp_sheet *sheet, const srp_response *node, bool with_mom
     const double force[] = {node->f.x, node->f.y, node->f.z};
     print_numbers(sheet, 3, force);
     if (with_moment) {
-        double ff = srp_vec3_dot(node->f, node->f);
-        double distance = ff > 0.0 ? srp_vec3_norm(srp_vec3_cross(node->f, node->t)) / ff : 0.0;
-        const double rest[] = {sqrt(ff), node->t.x, node->t.y, node->t.z, srp_vec3_norm(node->t),
+        /* |f x t| / f.f, without the product of four large numbers. */
+        double size = srp_vec3_norm(node->f), distance = 0.0;
+        if (size > 0.0) {
+            srp_vec3 along = srp_vec3_scale(1.0 / size, node->f);
+            distance = srp_vec3_norm(srp_vec3_cross(along, node->t)) / size;
+        }
+        const double rest[] = {size,    node->t.x, node->t.y, node->t.z, srp_vec3_norm(node->t),
                                distance};
         print_numbers(sheet, 6, rest);
     }

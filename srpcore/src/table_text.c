@@ -2,6 +2,7 @@
 #include "table_text.h"
 
 #include "error.h"
+#include "limits.h"
 #include "platform.h"
 
 #include <math.h>
@@ -126,11 +127,17 @@ srp_status srp_table_row_vec3(srp_text *text, const char *name, const double sca
     for (int k = 0; k < 3; ++k) {
         char what[64];
         snprintf(what, sizeof what, "%s(%c)", name, "XYZ"[k]);
-        srp_status status = srp_text_double(text, what, &value[k], NULL, error);
+        srp_token where;
+        srp_status status = srp_text_double(text, what, &value[k], &where, error);
         if (status != SRP_OK) {
             return status;
         }
         value[k] *= scale[k];
+        if (!(fabs(value[k]) <= SRP_RESPONSE_MAX)) {
+            return srp_fail_at(error, SRP_BAD_DATA, text->name, where.line, where.column,
+                               "found %s: %s is %g in metres, expected at most %g",
+                               srp_token_excerpt(where).text, what, value[k], SRP_RESPONSE_MAX);
+        }
     }
     *out = srp_vec3_make(value[0], value[1], value[2]);
     return SRP_OK;

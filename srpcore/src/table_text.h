@@ -40,8 +40,9 @@ srp_status srp_table_row_begin(srp_text *text, srp_table_row *out, srp_error *er
  * in the inner, both ascending, each within a thousandth of a step (GMAT's own tolerance). */
 srp_status srp_table_row_check(const srp_text *text, srp_grid grid, size_t index,
                                const srp_table_row *row, srp_error *error);
-/* Takes the next three numbers, named "NAME(X)", ... in complaints, times `scale`. SRP_BAD_FORMAT.
- */
+/* Takes the next three numbers, named "NAME(X)", ... in complaints, times `scale`, which
+ * makes areas [m^2] and moments [m^3] of them. SRP_BAD_FORMAT, SRP_BAD_DATA (above
+ * SRP_RESPONSE_MAX). */
 srp_status srp_table_row_vec3(srp_text *text, const char *name, const double scale[3],
                               srp_vec3 *out, srp_error *error);
 /* The grid of the steps [deg] that a file gives; SRP_BAD_FORMAT when they do not divide their

@@ -7,6 +7,7 @@
  *     a = (P0 / c) f / m,  |a| its norm
  */
 #include "error.h"
+#include "limits.h"
 #include "platform.h"
 #include "table_text.h"
 
@@ -105,6 +106,11 @@ static srp_status take_number(const reader *in, srp_token key, srp_token value, 
         return srp_fail_at(in->error, SRP_BAD_DATA, in->text.name, value.line, value.column,
                            "%s is %g, expected more than 0", name, number);
     }
+    if (!SRP_WITHIN(number, SRP_SCALE_MIN, SRP_SCALE_MAX)) {
+        return srp_fail_at(in->error, SRP_BAD_DATA, in->text.name, value.line, value.column,
+                           "%s is %g, expected %g to %g", name, number, SRP_SCALE_MIN,
+                           SRP_SCALE_MAX);
+    }
     *out = number;
     return SRP_OK;
 }
@@ -174,26 +180,21 @@ static srp_status begin_rows(reader *in) {
 
 static srp_status take_row(reader *in) {
     srp_table_row row;
-    srp_vec3 a = {0.0, 0.0, 0.0};
+    srp_vec3 f = {0.0, 0.0, 0.0};
     double norm;
-    const double scale[3] = {1.0, 1.0, 1.0};
+    const double scale[3] = {in->scale, in->scale, in->scale};
     srp_status status = srp_table_row_begin(&in->text, &row, in->error);
     if (status == SRP_OK) {
         status = srp_table_row_check(&in->text, in->table->grid, in->rows, &row, in->error);
     }
     if (status == SRP_OK) {
-        status = srp_table_row_vec3(&in->text, "a", scale, &a, in->error);
+        status = srp_table_row_vec3(&in->text, "a", scale, &f, in->error);
     }
     if (status == SRP_OK) {
         status = srp_text_double(&in->text, "|a|", &norm, NULL, in->error);
     }
     if (status == SRP_OK) {
         status = srp_text_end_of_line(&in->text, in->error);
-    }
-    srp_vec3 f = srp_vec3_scale(in->scale, a);
-    if (status == SRP_OK && !srp_vec3_is_finite(f)) {
-        status = srp_fail_at(in->error, SRP_BAD_DATA, in->text.name, row.az_token.line, 0,
-                             "the acceleration is that of no finite area");
     }
     if (status == SRP_OK) {
         in->table->nodes[in->rows].f = f;

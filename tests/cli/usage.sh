@@ -42,6 +42,14 @@ wrong 'expected a number above 0' "${force[@]}" --mass 0
 wrong 'expected a number above 0' "${force[@]}" --mass -1
 wrong 'expected a number above 0' "${force[@]}" --distance-au 0
 wrong 'expected a number above 0' "${force[@]}" --flux 0
+# Beyond all sense: the results would be infinite, or not a number.
+wrong 'expected a number above 0 (1e-30 to 1e30)' "${force[@]}" --mass 1e-320
+wrong 'expected a number above 0 (1e-30 to 1e30)' "${force[@]}" --distance-au 1e-200
+wrong 'expected a number above 0 (1e-30 to 1e30)' "${force[@]}" --flux 1e300
+wrong 'each up to 1e30' "${force[@]}" --reference 1e308,1e308,0
+wrong 'each up to 1e30' "${force[@]}" --method raycast --window -1e308,1e308,-1,1
+wrong 'expected a number not below 0 (up to 1e30)' force --method cannonball --cr 1e300 --area 1e300 \
+    --az 0 --el 0
 for text in 0 32769 1.5 -3 1e3 99999999999999999999; do
     wrong 'expected a whole number from 1 to 32768' "${force[@]}" --method raycast --grid "$text"
 done

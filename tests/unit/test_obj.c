@@ -165,9 +165,9 @@ START_TEST(units_scale_the_vertices) {
     }
     params.metres_per_unit = 1e200;
     ck_assert_int_eq(srp_mesh_parse_obj("v 0 1e200 0\n", 12, "f", &params, NULL, &mesh, &error),
-                     SRP_BAD_FORMAT);
+                     SRP_BAD_DATA);
     ck_assert_uint_eq(error.column, 5);
-    ck_assert_ptr_nonnull(strstr(error.message, "not finite in metres"));
+    ck_assert_ptr_nonnull(strstr(error.message, "y of the vertex is inf m, expected at most"));
 }
 END_TEST
 
@@ -263,6 +263,9 @@ static const malformed BAD[] = {
               "f:4:7: found '-Infinity', expected a finite number: z of the vertex"),
     MALFORMED("infinity by overflow", "v 1e309 0 0\n" V3 "f 1 2 3\n", SRP_BAD_FORMAT,
               "f:1:3: '1e309' is too large for a double: x of the vertex"),
+    /* Its cross product would overflow, and the face be taken for one without area. */
+    MALFORMED("vertex out of all reach", V3 "v 0 -1e160 0\nf 1 2 3\n", SRP_BAD_DATA,
+              "f:4:5: y of the vertex is -1e+160 m, expected at most 1e+30 m: is its unit right?"),
     MALFORMED("hexadecimal number", "v 0x10 0 0\n" V3 "f 1 2 3\n", SRP_BAD_FORMAT,
               "f:1:3: found '0x10', expected a finite number: x of the vertex"),
     MALFORMED("decimal comma", "v 0,5 0 0\n" V3 "f 1 2 3\n", SRP_BAD_FORMAT,

@@ -3,6 +3,9 @@
 #include "shapes.h"
 #include "srp_check.h"
 
+#include <srp/method.h>
+#include <srp/table.h>
+
 #include <string.h>
 
 static const srp_optics GREY = {0.31, 0.27, false};
@@ -112,15 +115,14 @@ END_TEST
 
 /* Rounding eats a box of 2 m at 1e14 m: no method may call that an answer. */
 START_TEST(boxes_beyond_resolution_are_refused) {
-    const double far[3] = {1e14, 1e12, 1e77};
+    const double far[2] = {1e14, 1e12};
     srp_materials *materials = NULL;
     srp_error error;
     assert_ok(srp_materials_create(&materials, &error), error);
     assert_ok(srp_materials_set(materials, "foil", GREY, false, &error), error);
-    for (int i = 0; i < 3; ++i) {
-        double edge = i == 2 ? far[i] : 2.0;
-        srp_mesh *mesh = shape_box(srp_vec3_make(far[i], -1, -1),
-                                   srp_vec3_make(far[i] + edge, edge - 1, edge - 1), "foil");
+    for (int i = 0; i < 2; ++i) {
+        srp_mesh *mesh =
+            shape_box(srp_vec3_make(far[i], -1, -1), srp_vec3_make(far[i] + 2, 1, 1), "foil");
         srp_scene *scene = NULL;
         ck_assert_int_eq(srp_scene_from_mesh(mesh, materials, &scene, &error), SRP_BAD_DATA);
         ck_assert_ptr_nonnull(strstr(error.message, "the mesh reaches"));
@@ -129,6 +131,29 @@ START_TEST(boxes_beyond_resolution_are_refused) {
     srp_materials_destroy(materials);
     srp_vec3 low = {1e8, -1, -1}, high = {1e8 + 2, 1, 1};
     srp_scene_destroy(shape_scene(shape_box(low, high, "foil"), GREY));
+}
+END_TEST
+
+/* Up to the limit all is finite, and scales as it should: f with the square, t with the cube. */
+START_TEST(scenes_at_the_limit_of_reach_are_exact) {
+    const double edge = 0.9e30;
+    srp_vec3 s = srp_direction_from_deg(31.7, -21.3), low = {-0.1, 0.2, -0.3}, high = {0.4, 0.9, 1};
+    srp_response small, large;
+    for (int i = 0; i < 2; ++i) {
+        double scale = i == 0 ? 1.0 : edge;
+        srp_scene *scene = shape_scene(
+            shape_box(srp_vec3_scale(scale, low), srp_vec3_scale(scale, high), "foil"), GREY);
+        srp_method_params params = srp_method_params_default();
+        srp_prepared *prepared = NULL;
+        srp_error error;
+        assert_ok(srp_method_prepare(&srp_method_exact, scene, &params, &prepared, &error), error);
+        assert_ok(srp_prepared_respond(prepared, 1, &s, i == 0 ? &small : &large, NULL, &error),
+                  error);
+        srp_prepared_release(prepared);
+        srp_scene_destroy(scene);
+    }
+    assert_vec3_close(srp_vec3_scale(1.0 / edge / edge, large.f), small.f, 1e-13, 0.0);
+    assert_vec3_close(srp_vec3_scale(1.0 / edge / edge / edge, large.t), small.t, 1e-13, 1e-15);
 }
 END_TEST
 
@@ -171,6 +196,11 @@ START_TEST(plates_and_spheres_are_checked) {
     ck_assert_int_eq(srp_scene_from_plates(&bad, 1, &scene, &error), SRP_BAD_DATA);
     ck_assert_int_eq(srp_scene_from_sphere(NAN, 1.0, &scene, &error), SRP_BAD_ARGUMENT);
     ck_assert_int_eq(srp_scene_from_sphere(1.3, 0.0, &scene, &error), SRP_BAD_ARGUMENT);
+    ck_assert_int_eq(srp_scene_from_sphere(1.3, 1e61, &scene, &error), SRP_BAD_ARGUMENT);
+    ck_assert_int_eq(srp_scene_from_sphere(1e31, 1.0, &scene, &error), SRP_BAD_ARGUMENT);
+    bad = plate;
+    bad.area = 1e61;
+    ck_assert_int_eq(srp_scene_from_plates(&bad, 1, &scene, &error), SRP_BAD_DATA);
     ck_assert_ptr_null(scene);
 }
 END_TEST
@@ -185,6 +215,7 @@ int main(void) {
     tcase_add_test(tcase, missing_optics_are_named);
     tcase_add_test(tcase, nothing_but_needles_is_refused);
     tcase_add_test(tcase, boxes_beyond_resolution_are_refused);
+    tcase_add_test(tcase, scenes_at_the_limit_of_reach_are_exact);
     tcase_add_test(tcase, hashes_tell_shape_from_optics);
     tcase_add_test(tcase, plates_and_spheres_are_checked);
     suite_add_tcase(suite, tcase);

@@ -263,6 +263,45 @@ START_TEST(columns_are_named) {
 }
 END_TEST
 
+/* |f| would be infinite: what is read must be writable. */
+START_TEST(forces_out_of_all_range_are_refused) {
+    srp_table *table = NULL;
+    srp_error error;
+    char *text = changed("7 8 9", "7 -1e300 9");
+    ck_assert_int_eq(srp_table_parse_spo(text, strlen(text), "a.spo", &table, &error),
+                     SRP_BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(error.message, "found '-1e300': Force(Y) is -1e+300 in metres"));
+    ck_assert(error.line == 27 && error.column == 19);
+    free(text);
+    ck_assert_ptr_null(table);
+}
+END_TEST
+
+/* ... to the last column, which is made of products of two of them. */
+START_TEST(the_largest_forces_are_written_and_read) {
+    const char path[] = "scratch_large.spo";
+    table_fixture fixture = fixture_create(&noise_method, NULL);
+    srp_table *table = noise_table(&fixture, grid_of(90, 90), false), *back;
+    srp_error error;
+    for (size_t k = 0; k < srp_grid_node_count(table->grid); ++k) {
+        table->nodes[k].f = srp_vec3_make(1e100, -1e100, 0.3e100);
+        table->nodes[k].t = srp_vec3_make(-1e100, 0.7e100, 1e100);
+    }
+    assert_ok(srp_table_write(table, &srp_table_format_spo, path, &error), error);
+    size_t size;
+    char *text = read_bytes(path, &size);
+    ck_assert_ptr_null(strstr(text, "inf"));
+    ck_assert_ptr_null(strstr(text, "nan"));
+    free(text);
+    assert_ok(srp_table_read(&srp_table_format_spo, path, &back, &error), error);
+    ck_assert(back->nodes[4].f.y == -1e100 && back->nodes[4].t.z == 1e100);
+    srp_table_destroy(back);
+    srp_table_destroy(table);
+    fixture_destroy(fixture);
+    remove(path);
+}
+END_TEST
+
 START_TEST(a_file_cut_anywhere_is_refused) {
     size_t size = sizeof GOOD - 1;
     for (size_t cut = 0; cut < size - 1; ++cut) {
@@ -565,12 +604,14 @@ int main(void) {
     tcase_add_test(tcase, units_are_converted);
     tcase_add_test(tcase, malformed_files_are_refused_with_their_place);
     tcase_add_test(tcase, columns_are_named);
+    tcase_add_test(tcase, forces_out_of_all_range_are_refused);
     tcase_add_test(tcase, a_file_cut_anywhere_is_refused);
     tcase_add_test(tcase, what_is_no_text_is_refused);
     tcase_add_test(tcase, no_single_byte_does_harm);
     suite_add_tcase(suite, tcase);
     tcase = tcase_create("writing");
     tcase_set_timeout(tcase, 60);
+    tcase_add_test(tcase, the_largest_forces_are_written_and_read);
     tcase_add_test(tcase, our_files_keep_gmats_rules);
     tcase_add_test(tcase, odd_titles_keep_gmats_rules);
     tcase_add_test(tcase, force_and_torque_come_back_to_the_bit);

@@ -135,7 +135,11 @@ START_TEST(malformed_files_are_refused_with_their_place) {
          "'x', expected a finite number: a(Y)"},
         {"3e-6 0 0 3e-6", "3e-6 inf 0 3e-6", 9, SRP_BAD_FORMAT,
          "'inf', expected a finite number: a(Y)"},
-        {"3e-6 0 0 3e-6", "1e308 0 0 1e308", 9, SRP_BAD_DATA, "no finite area"},
+        {"3e-6 0 0 3e-6", "3e-6 -1e300 0 1e300", 9, SRP_BAD_DATA,
+         "found '-1e300': a(Y) is -4.38614e+305 in metres, expected at most 1e+100"},
+        {"[kg]: 2", "[kg]: 2e-300", 3, SRP_BAD_DATA,
+         "mass [kg] is 2e-300, expected 1e-30 to 1e+30"},
+        {": 1367", ": 1e31", 4, SRP_BAD_DATA, "solar flux [W/m^2] is 1e+31, expected 1e-30 to"},
         {" 180  90 0 -6e-6 0 6e-6\n", "", 12, SRP_BAD_FORMAT, "ends after 5 rows, expected 6"},
         {"6e-6\n", "6e-6\n0 0 1 1 1 1\n", 13, SRP_BAD_FORMAT, "found more than the 6 rows"},
     };

@@ -30,11 +30,12 @@ SRP_API srp_mesh_read_params srp_mesh_read_params_default(void);
 
 /*
  * A mesh from arrays, which are copied.
- *   vertices            [m] (vertex_count, body frame, finite)
+ *   vertices            [m] (vertex_count, body frame, each coordinate up to 1e30)
  *   triangles           (triangle_count, indices below vertex_count)
  *   triangle_material   (triangle_count, indices below material_count)
  *   material_names      (material_count, unique, not empty)
- * SRP_BAD_ARGUMENT (an index out of range, a non-finite vertex, no triangle), SRP_NO_MEMORY.
+ * SRP_BAD_ARGUMENT (an index out of range, a vertex that is not finite or beyond 1e30 m, no
+ * triangle), SRP_NO_MEMORY.
  */
 SRP_API SRP_CHECK srp_status srp_mesh_create(const srp_vec3 *vertices, size_t vertex_count,
                                              const srp_triangle *triangles, size_t triangle_count,
@@ -47,7 +48,8 @@ SRP_API void srp_mesh_destroy(srp_mesh *mesh);
 /* Reads a Wavefront OBJ file. Forms read: docs/file-formats.md. Faces before any `usemtl` get the
  * material "" (which must then be given by name like any other).
  * `params` may be NULL for the defaults.
- * SRP_NOT_FOUND, SRP_IO, SRP_BAD_FORMAT, SRP_BAD_DATA (nothing but degenerate faces),
+ * SRP_NOT_FOUND, SRP_IO, SRP_BAD_FORMAT, SRP_BAD_DATA (nothing but degenerate faces; a
+ * coordinate beyond 1e30 m),
  * SRP_BAD_ARGUMENT (params), SRP_NO_MEMORY. */
 SRP_API SRP_CHECK srp_status srp_mesh_read_obj(const char *path, const srp_mesh_read_params *params,
                                                const srp_log *log, srp_mesh **out,
