@@ -131,7 +131,11 @@ static int collect_materials(cli_info *info) {
         free(area);
         return no_memory();
     }
-    srp_mesh_material_areas(info->mesh, area);
+    srp_error error;
+    if (srp_mesh_material_areas(info->mesh, area, &error) != SRP_OK) {
+        free(area);
+        return cli_input_error(&error);
+    }
     for (size_t i = 0; i < count; ++i) {
         info_material *material = &info->materials[info->material_count++];
         material->name = srp_mesh_material_name(info->mesh, i);

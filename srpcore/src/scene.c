@@ -183,12 +183,14 @@ static void measure_facet(const srp_scene *scene, srp_facet *facet) {
     facet->area = 0.5 * length;
 }
 
-/* Facets are the triangles with an area; those of components that are inside out are turned. */
+/* Facets are the triangles with an area, each once: of faces at the same places the lower index
+ * hides the others. Those of components that are inside out are turned. */
 static void take_facets(srp_scene *scene, const srp_mesh *mesh, const srp_topology *topology,
                         const uint32_t *place, uint32_t *facet_of) {
     const uint32_t *material = srp_mesh_triangle_materials(mesh);
     for (size_t i = 0; i < topology->triangle_count; ++i) {
-        facet_of[i] = topology->degenerate[i] ? SRP_NO_NEIGHBOUR : (uint32_t)scene->facet_count++;
+        bool seen = !topology->degenerate[i] && !topology->repeats[i];
+        facet_of[i] = seen ? (uint32_t)scene->facet_count++ : SRP_NO_NEIGHBOUR;
     }
     for (size_t i = 0; i < topology->triangle_count; ++i) {
         if (facet_of[i] == SRP_NO_NEIGHBOUR) {

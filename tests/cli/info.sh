@@ -26,6 +26,27 @@ grep -Eq '^surface .* 0.25 +0.125 +--material \(one-sided\)$' ../log/out || fail
 expect 0 info "$MODELS/cube.obj" --material surfaec=0,0
 prints "no face has the material 'surfaec' of --material; did you mean 'surface'?"
 
+# Whatever lies on whatever, shares add up to the whole.
+expect 0 info "$MODELS/cube.obj" "$MODELS/cube.obj"
+grep -Eq '^surface +24 +100.0% ' ../log/out || fail 'a cube twice is a cube'
+prints 'triangles repeat another one with the same winding'
+cat > sheet.obj <<'END'
+v 0 0 0
+v 1 0 0
+v 0 1 0
+usemtl cells
+f 1 2 3
+usemtl back
+f 3 2 1
+f 1 1 2
+END
+expect 0 info sheet.obj
+grep -Eq '^cells +0.5 +50.0% ' ../log/out || fail 'share of the cells'
+grep -Eq '^back +0.5 +50.0% ' ../log/out || fail 'share of the back'
+prints 'components     1, 1 of them closed'
+prints_not 'more than two triangles'
+prints 'no area'
+
 # A guess at the unit.
 expect 0 info "$MODELS/cube.obj" --unit 1000
 prints 'in millimetres it would be 2 m (--unit mm)'

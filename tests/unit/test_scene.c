@@ -86,6 +86,50 @@ START_TEST(cavities_stay_closed) {
 }
 END_TEST
 
+/* Of coincident faces with one outside only the first is ever seen; the other side of a sheet is.
+ */
+START_TEST(repeated_faces_are_kept_once) {
+    srp_vec3 low = {0.5, -1.25, 2}, high = {1.75, 1, 4.5};
+    srp_mesh *mesh = shape_box(low, high, "foil");
+    shape_join(mesh, shape_box(low, high, "cells"));
+    srp_scene *scene = shape_scene(mesh, GREY);
+    ck_assert_uint_eq(srp_scene_facet_count(scene), 12);
+    ck_assert_uint_eq(srp_scene_material_count(scene), 2);
+    ck_assert(scene->all_closed);
+    for (size_t i = 0; i < 12; ++i) {
+        ck_assert_uint_eq(scene->facets[i].material, 0);
+        for (int k = 0; k < 3; ++k) {
+            ck_assert_uint_lt(scene->facets[i].neighbour[k], 12);
+        }
+    }
+    srp_scene_destroy(scene);
+
+    const srp_vec3 v[] = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}};
+    const srp_triangle sheet[] = {{{0, 1, 2}}, {{1, 0, 2}}, {{1, 2, 0}}, {{2, 1, 0}}};
+    scene = shape_scene(shape_mesh(v, 3, sheet, 4, "foil"), GREY);
+    ck_assert_uint_eq(srp_scene_facet_count(scene), 2);
+    ck_assert(scene->facets[0].normal.z == 1.0 && scene->facets[1].normal.z == -1.0);
+    srp_scene_destroy(scene);
+}
+END_TEST
+
+/* Hundreds of thousands of copies of one face: each used to be clipped by all others. */
+START_TEST(many_copies_of_one_face_are_one) {
+    enum { COPIES = 300000 };
+    const srp_vec3 v[] = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}};
+    srp_triangle *t = malloc(COPIES * sizeof *t);
+    ck_assert_ptr_nonnull(t);
+    for (size_t i = 0; i < COPIES; ++i) {
+        t[i] =
+            (srp_triangle){{(uint32_t)(i % 3), (uint32_t)((i + 1) % 3), (uint32_t)((i + 2) % 3)}};
+    }
+    srp_scene *scene = shape_scene(shape_mesh(v, 3, t, COPIES, "foil"), GREY);
+    ck_assert_uint_eq(srp_scene_facet_count(scene), 1);
+    srp_scene_destroy(scene);
+    free(t);
+}
+END_TEST
+
 START_TEST(missing_optics_are_named) {
     srp_error error;
     srp_scene *scene = NULL;
@@ -212,6 +256,8 @@ int main(void) {
     tcase_add_test(tcase, inside_out_boxes_are_turned);
     tcase_add_test(tcase, figure_of_eight_is_not_culled);
     tcase_add_test(tcase, cavities_stay_closed);
+    tcase_add_test(tcase, repeated_faces_are_kept_once);
+    tcase_add_test(tcase, many_copies_of_one_face_are_one);
     tcase_add_test(tcase, missing_optics_are_named);
     tcase_add_test(tcase, nothing_but_needles_is_refused);
     tcase_add_test(tcase, boxes_beyond_resolution_are_refused);
