@@ -70,7 +70,7 @@ static int read_file(cli_info *info, const char *path, double metres_per_unit) {
     return status;
 }
 
-/* Pins what the user gave, so that a file's word on the same material is not even looked at. */
+/* Pins what the user gave, so that a file's word on the same material does not count. */
 static srp_status pin_given(srp_materials *list, const srp_materials *given, srp_error *error) {
     srp_status status = SRP_OK;
     for (size_t i = 0; i < srp_materials_count(given) && status == SRP_OK; ++i) {

@@ -143,6 +143,27 @@ srp_status srp_table_row_vec3(srp_text *text, const char *name, const double sca
     return SRP_OK;
 }
 
+srp_status srp_table_key_once(const srp_text *text, srp_token key, size_t *line, srp_error *error) {
+    if (*line != 0) {
+        return srp_fail_at(error, SRP_BAD_FORMAT, text->name, key.line, key.column,
+                           "found %s again, expected it once: it is given in line %zu",
+                           srp_token_excerpt(key).text, *line);
+    }
+    *line = key.line;
+    return SRP_OK;
+}
+
+const char srp_table_writer[] = "srpcore";
+
+srp_status srp_table_end_of_text(const srp_text *text, srp_error *error) {
+    if (text->end[-1] != '\n' && text->end[-1] != '\r') {
+        return srp_fail_at(error, SRP_BAD_FORMAT, text->name, text->line, 0,
+                           "the last line has no end, expected one in a file of srpcore: it is cut "
+                           "short");
+    }
+    return SRP_OK;
+}
+
 srp_status srp_table_grid_of_file(const srp_text *text, size_t line, size_t size,
                                   double az_step_deg, double el_step_deg, srp_grid *out,
                                   srp_error *error) {
