@@ -32,6 +32,10 @@ double cli_system_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+void cli_system_begin(void) {
+    signal(SIGXFSZ, SIG_IGN);
+}
+
 static volatile sig_atomic_t signal_seen;
 
 static void keep_signal(int number) {

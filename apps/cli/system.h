@@ -14,6 +14,10 @@ int cli_system_stderr_columns(void);
 /* Seconds of a clock that only goes forward. */
 double cli_system_seconds(void);
 
+/* Once, before all else: a file that grows beyond the limit of the system (ulimit -f) fails to be
+ * written, as on a full disk, and does not end the program. */
+void cli_system_begin(void);
+
 /* From here on the first SIGINT, SIGTERM or SIGHUP is kept; a second one ends the program. */
 void cli_system_catch_signals(void);
 /* The signal that came, 0 when none did. */
