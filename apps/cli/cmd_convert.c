@@ -42,7 +42,7 @@ static const cli_option OPTIONS[CONVERT_OPTION_COUNT] = {
     [CONVERT_TITLE] = {.name = "title",
                        .value = "TEXT",
                        .help = "Title in the output. Default: that of the input.",
-                       .set = cli_set_text,
+                       .set = cli_set_title,
                        .offset = offsetof(convert_options, title)},
 };
 

@@ -104,8 +104,10 @@ static inline bool cli_is_given(cli_given given, int option) {
 }
 
 /* Setters for option tables. */
-bool cli_set_flag(const cli_option *option, void *target, const char *text);   /* bool */
-bool cli_set_text(const cli_option *option, void *target, const char *text);   /* const char * */
+bool cli_set_flag(const cli_option *option, void *target, const char *text); /* bool */
+bool cli_set_text(const cli_option *option, void *target, const char *text); /* const char * */
+/* const char *, in UTF-8: formats of tables hold nothing else. */
+bool cli_set_title(const cli_option *option, void *target, const char *text);
 bool cli_set_number(const cli_option *option, void *target, const char *text); /* double */
 bool cli_set_count(const cli_option *option, void *target, const char *text);  /* uint32_t */
 bool cli_set_bits(const cli_option *option, void *target, const char *text);   /* uint64_t */

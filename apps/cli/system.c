@@ -116,6 +116,23 @@ bool cli_system_same_file(const char *a, const char *b) {
            first.st_ino == second.st_ino;
 }
 
+static const char *base_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? slash + 1 : path;
+}
+
+bool cli_system_same_name(const char *a, const char *b) {
+    if (strcmp(a, b) == 0) {
+        return true;
+    }
+    char *first = directory_of(a), *second = directory_of(b);
+    bool same = first != NULL && second != NULL && strcmp(base_name(a), base_name(b)) == 0 &&
+                cli_system_same_file(first, second);
+    free(first);
+    free(second);
+    return same;
+}
+
 bool cli_system_file_exists(const char *path) {
     struct stat about;
     return stat(path, &about) == 0;

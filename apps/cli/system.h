@@ -30,6 +30,8 @@ void cli_system_die_by_signal(int signal_number);
 bool cli_system_can_write(const char *path, const char **reason);
 /* Are these two names of one file that exists? */
 bool cli_system_same_file(const char *a, const char *b);
+/* Do these two name one place for a file, whether it exists or not: one name in one directory? */
+bool cli_system_same_name(const char *a, const char *b);
 bool cli_system_file_exists(const char *path);
 
 #endif

@@ -448,12 +448,13 @@ static srp_status read_mesh(obj_reader *reader) {
     }
     if (reader->mesh->triangle_count == 0) {
         return srp_fail_at(reader->error, SRP_BAD_FORMAT, reader->text.name, 0, 0,
-                           "found %zu vertices and no face, expected an OBJ file with faces (f)",
-                           reader->mesh->vertex_count);
+                           "found %zu vert%s and no face, expected an OBJ file with faces (f)",
+                           reader->mesh->vertex_count,
+                           reader->mesh->vertex_count == 1 ? "ex" : "ices");
     }
     if (!reader->has_area) {
         return srp_fail_at(reader->error, SRP_BAD_DATA, reader->text.name, 0, 0,
-                           "none of its %zu triangles has an area", reader->mesh->triangle_count);
+                           "none of its triangles has an area");
     }
     return SRP_OK;
 }

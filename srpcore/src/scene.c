@@ -277,8 +277,7 @@ static srp_status take_mesh(srp_scene *scene, const srp_mesh *mesh, srp_error *e
     take_vertices(scene, mesh, &topology, place);
     take_facets(scene, mesh, &topology, place, facet_of);
     if (scene->facet_count == 0) {
-        status = srp_fail(error, SRP_BAD_DATA, "none of the mesh's %zu triangles has an area",
-                          topology.triangle_count);
+        status = srp_fail(error, SRP_BAD_DATA, "none of the mesh's triangles has an area");
         goto done;
     }
     status = srp_winding_open_negative(scene, topology.component, facet_of, topology.triangle_count,

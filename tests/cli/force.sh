@@ -23,6 +23,9 @@ same "$(value pressure_n_m2)" 4.5598211813e-06 1e-10
 same "$(value force_n 1)" "$(awk 'BEGIN { print -36 * 1367 / 299792458 }' OFMT=%.17g)" 1e-5
 same "$(value acceleration_m_s2 1)" -1.931218382668e-07 1e-9
 prints_not '"t_m3"' # a method without moments gives none
+prints_not '-0,'
+expect 0 force --method cannonball --cr 1.8 --area 20 --az 0 --el 0
+prints_not '-0.000'
 expect 0 force --method cannonball --cr 1.8 --area 20 --az 90 --el 0 --distance-au 2 --flux 1400 --json
 same "$(value f_m2 1)" 0
 same "$(value f_m2 2)" -36
