@@ -13,7 +13,7 @@ mass=900 # [kg], for the accelerations of the .txt
 # A build tree of its own, so that what it leaves out is not left out of anyone's release build.
 bash scripts/install-deps.sh build
 cmake --preset release -B build/demo -D SRP_BUILD_TESTS=OFF -D SRP_BUILD_BENCH=OFF
-cmake --build build/demo -j "$(nproc)" --target srp
+cmake --build build/demo -j "$(nproc)"
 srp=build/demo/apps/cli/srp
 
 mkdir -p "$out"
@@ -27,4 +27,6 @@ Made from models/box-wing.obj, without a ray of sampling error:
   $out/box-wing.nc    force, moment and lit area over azimuth and elevation (NetCDF: xarray, MATLAB)
   $out/box-wing.spo   the same as GMAT and STK read it (SPAD)
   $out/box-wing.txt   accelerations of a spacecraft of $mass kg
+
+The program is $srp; to install it: cmake --install build/demo (README.md, "Installation")
 END

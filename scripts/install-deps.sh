@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing of the packages that srpcore is built and tested with, on Debian 12 and
-# Ubuntu 22.04 or 24.04. Does nothing where all are there. Works as root and through sudo.
+# Ubuntu 22.04 or 24.04. Does nothing, and asks no network, where all are there. Works as root and
+# through sudo.
 #
 #   scripts/install-deps.sh [build] [test] [ci]     default: build test
 set -euo pipefail
@@ -9,8 +10,8 @@ set -euo pipefail
 BUILD=(gcc g++ cmake ninja-build pkg-config libc6-dev libnetcdf-dev libxxhash-dev)
 TEST=(check libgsl-dev)
 CI=(clang clang-format libomp-dev)
-# Nice to have, and only tried when something else is missing: the yardstick of the benchmarks, a look
-# into tables, rendering of manual pages.
+# Nice to have, and tried once, without a word when that fails but that it did: the yardstick of the
+# benchmarks, a look into tables, rendering of manual pages.
 OPTIONAL=(libembree-dev netcdf-bin mandoc)
 # Run-time libraries of the sanitizers and the fuzzer of clang; where there is no such package (Ubuntu
 # 22.04) they come with clang itself.
@@ -38,8 +39,29 @@ as_root() {
     fi
 }
 
+# Those that the lists of packages on this machine know; the others do not exist here.
+known_of() {
+    local package
+    for package in "$@"; do
+        if apt-cache policy "$package" 2>/dev/null | grep -q 'Candidate: [^(]'; then
+            echo "$package"
+        fi
+    done
+}
+
+install_optional() {
+    local missing known
+    mapfile -t missing < <(missing_of "${OPTIONAL[@]}")
+    mapfile -t known < <(known_of "${missing[@]}")
+    if [ ${#known[@]} -gt 0 ]; then
+        as_root apt-get install -y -qq --no-install-recommends "${known[@]}" >/dev/null 2>&1 || true
+        mapfile -t missing < <(missing_of "${missing[@]}")
+    fi
+    [ ${#missing[@]} -eq 0 ] || echo "install-deps: going on without ${missing[*]} (optional)"
+}
+
 main() {
-    local groups=("$@") required=() missing=() wanted=("${OPTIONAL[@]}") group package
+    local groups=("$@") required=() missing=() group
     [ ${#groups[@]} -gt 0 ] || groups=(build test)
     for group in "${groups[@]}"; do
         case $group in
@@ -47,7 +69,6 @@ main() {
         test) required+=("${TEST[@]}") ;;
         ci)
             required+=("${CI[@]}")
-            wanted+=(libclang-rt-dev) # the sanitizers' own; Ubuntu 22.04 has it inside clang
             ;;
         *)
             echo "install-deps: unknown group '$group', expected build, test or ci" >&2
@@ -61,18 +82,12 @@ main() {
     fi
 
     mapfile -t missing < <(missing_of "${required[@]}")
-    if [ ${#missing[@]} -eq 0 ]; then
-        return
+    if [ ${#missing[@]} -gt 0 ]; then
+        echo "install-deps: installing ${missing[*]}"
+        as_root apt-get update -qq
+        as_root apt-get install -y -qq --no-install-recommends "${missing[@]}"
     fi
-    echo "install-deps: installing ${missing[*]}"
-    as_root apt-get update -qq
-    as_root apt-get install -y -qq --no-install-recommends "${missing[@]}"
-
-    for package in $(missing_of "${wanted[@]}"); do
-        if ! as_root apt-get install -y -qq --no-install-recommends "$package" >/dev/null; then
-            echo "install-deps: going on without $package (optional)"
-        fi
-    done
+    install_optional
 }
 
 main "$@"

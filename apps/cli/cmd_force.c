@@ -30,8 +30,8 @@ typedef struct force_options {
     bool basis, json;
 } force_options;
 
-static const cli_range AZIMUTH = {-360.0, 360.0, false, "an angle from -360 to 360 degrees"};
-static const cli_range ELEVATION = {-90.0, 90.0, false, "an angle from -90 to 90 degrees"};
+static const cli_range AZIMUTH = {-360.0, 360.0, "an angle from -360 to 360 degrees"};
+static const cli_range ELEVATION = {-90.0, 90.0, "an angle from -90 to 90 degrees"};
 
 static const cli_option OPTIONS[FORCE_OPTION_COUNT] = {
     [FORCE_AZ] = {.name = "az",

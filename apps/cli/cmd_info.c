@@ -34,16 +34,26 @@ static const char *shown_name(const char *name) {
     return name[0] != '\0' ? name : "(no name)";
 }
 
+static void print_counts(size_t vertices, size_t triangles) {
+    printf("%zu %s, %zu %s\n", vertices, cli_form(vertices, "vertex", "vertices"), triangles,
+           cli_form(triangles, "triangle", "triangles"));
+}
+
 static void print_mesh(const cli_info *info) {
     const srp_mesh_report *r = &info->report;
     srp_vec3 size = srp_vec3_sub(r->box_max, r->box_min);
     for (size_t i = 0; i < info->file_count; ++i) {
-        printf("%s: %zu vertices, %zu triangles\n", info->files[i].path, info->files[i].vertices,
-               info->files[i].triangles);
+        printf("%s: ", info->files[i].path);
+        print_counts(info->files[i].vertices, info->files[i].triangles);
     }
-    printf("\n%-14s %zu vertices, %zu triangles (from %zu triangles, %zu quadrilaterals, %zu "
-           "larger faces)\n",
-           "mesh", r->vertices, r->triangles, r->faces_triangle, r->faces_quad, r->faces_larger);
+    fputc('\n', stdout);
+    if (info->file_count > 1) {
+        printf("%-14s ", "together");
+        print_counts(r->vertices, r->triangles);
+    }
+    printf("%-14s %zu %s, %zu %s, %zu larger\n", "faces", r->faces_triangle,
+           cli_form(r->faces_triangle, "triangle", "triangles"), r->faces_quad,
+           cli_form(r->faces_quad, "quadrilateral", "quadrilaterals"), r->faces_larger);
     printf("%-14s %g x %g x %g m, from (%g, %g, %g) to (%g, %g, %g)\n", "box", size.x, size.y,
            size.z, r->box_min.x, r->box_min.y, r->box_min.z, r->box_max.x, r->box_max.y,
            r->box_max.z);
@@ -156,7 +166,7 @@ static void print_plates(const char *path, const srp_plate *plates, size_t count
     for (size_t i = 0; i < count; ++i) {
         area += plates[i].area;
     }
-    printf("%s: %zu plates, %.9g m^2\n\n", path, count, area);
+    printf("%s: %zu %s, %.9g m^2\n\n", path, count, cli_form(count, "plate", "plates"), area);
     printf("%5s  %9s  %9s  %9s  %12s  %7s  %7s\n", "plate", "nx", "ny", "nz", "area [m^2]", "rho_s",
            "rho_d");
     for (size_t i = 0; i < count; ++i) {

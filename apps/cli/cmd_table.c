@@ -8,6 +8,7 @@
 #include "outputs.h"
 #include "progress.h"
 #include "system.h"
+#include "utf8.h"
 
 #include <srp/table.h>
 
@@ -44,7 +45,7 @@ typedef struct table_options {
 } table_options;
 
 enum { CHECK_DEFAULT = 1000, CHECK_MAX = 1000000 };
-static const cli_range CHECK_RANGE = {1, CHECK_MAX, false, "a whole number from 1 to 1000000"};
+static const cli_range CHECK_RANGE = {1, CHECK_MAX, "a whole number from 1 to 1000000"};
 
 static const cli_option OPTIONS[TABLE_OPTION_COUNT] = {
     [TABLE_OUTPUT] = {.name = "output",
@@ -93,7 +94,7 @@ static const cli_option OPTIONS[TABLE_OPTION_COUNT] = {
     [TABLE_TITLE] = {.name = "title",
                      .value = "TEXT",
                      .help = "Title in the outputs. Default: the names of the model's files.",
-                     .set = cli_set_text,
+                     .set = cli_set_title,
                      .offset = offsetof(table_options, title)},
     [TABLE_RESTART] = {.name = "restart",
                        .help = "Discard what an interrupted run left, and compute from the "
@@ -140,8 +141,9 @@ typedef struct table_job {
     srp_grid grid;
     cli_model loaded;
     srp_table *table;
-    const char *command_line;
-    char *title, *partial; /* partial: where an interrupted run leaves its nodes */
+    const char *command_line; /* as it can be typed again */
+    char *title, *stored_command_line,
+        *partial; /* partial: where an interrupted run leaves its nodes */
     cli_progress progress;
     double saved; /* time of the last checkpoint [s] */
     bool save_failed;
@@ -236,13 +238,19 @@ static char *name_model(const table_job *job) {
 static int name_things(table_job *job) {
     static const char ending[] = ".partial";
     const char *first = job->options->outputs.items[0];
+    size_t line_size = strlen(job->command_line) + 1;
     job->title = name_model(job);
+    job->stored_command_line = malloc(line_size);
     size_t size = strlen(first) + sizeof ending;
     job->partial = malloc(size);
-    if (job->title == NULL || job->partial == NULL) {
+    if (job->title == NULL || job->stored_command_line == NULL || job->partial == NULL) {
         cli_say("no memory");
         return CLI_MACHINE_FAILED;
     }
+    /* Tables hold UTF-8, names of files any bytes. */
+    memcpy(job->stored_command_line, job->command_line, line_size);
+    cli_utf8_mend(job->stored_command_line);
+    cli_utf8_mend(job->title);
     snprintf(job->partial, size, "%s%s", first, ending);
     return CLI_DONE;
 }
@@ -289,7 +297,7 @@ static int open_table(table_job *job) {
     light.flux = options->flux;
     if (status == CLI_DONE &&
         srp_table_describe(job->table, options->title != NULL ? options->title : job->title,
-                           job->command_line, light, options->mass, &error) != SRP_OK) {
+                           job->stored_command_line, light, options->mass, &error) != SRP_OK) {
         status = cli_input_error(&error);
     }
     return status;
@@ -301,6 +309,7 @@ static bool save_partial(table_job *job, const srp_table *table, srp_error *erro
     return srp_table_write(table, &srp_table_format_netcdf, job->partial, error) == SRP_OK;
 }
 
+/* Shown in nodes, as everywhere: several of them may share a direction. */
 static bool report(void *user, const srp_table *table, size_t done, size_t total) {
     table_job *job = user;
     double now = cli_system_seconds();
@@ -314,7 +323,8 @@ static bool report(void *user, const srp_table *table, size_t done, size_t total
         }
         job->saved = cli_system_seconds();
     }
-    cli_progress_show(&job->progress, done, total);
+    cli_progress_show(&job->progress, srp_table_filled_count(table),
+                      srp_grid_node_count(job->grid));
     return cli_system_signal_seen() == 0;
 }
 
@@ -382,16 +392,18 @@ static int finish(table_job *job) {
     remove(job->partial);
     cli_outputs_report(&job->options->outputs, job->table);
     if (missed > 0) {
-        cli_say("warning: %zu nodes did not reach the tolerance with %u samples a side", missed,
+        cli_say("warning: %zu %s did not reach the tolerance with %u samples a side", missed,
+                cli_form(missed, "node", "nodes"),
                 srp_prepared_params(job->loaded.prepared)->max_samples);
     }
     uint32_t beams = srp_prepared_params(job->loaded.prepared)->mirrored_beams;
     if (sampled > 0 && beams > 0) {
-        cli_say("in %zu nodes mirrored light takes more than %u beams and was sampled (--beams)",
-                sampled, beams);
+        cli_say("in %zu %s mirrored light takes more than %u beams and was sampled (--beams)",
+                sampled, cli_form(sampled, "node", "nodes"), beams);
     }
     if (cut > 0) {
-        cli_say("warning: in %zu nodes, part of the model lies outside the window", cut);
+        cli_say("warning: in %zu %s, part of the model lies outside the window", cut,
+                cli_form(cut, "node", "nodes"));
     }
     return CLI_DONE;
 }
@@ -478,6 +490,7 @@ static int make_table(table_job *job) {
     cli_interp_check_end(&job->check);
     cli_model_release(&job->loaded);
     free(job->title);
+    free(job->stored_command_line);
     free(job->partial);
     return status;
 }

@@ -5,19 +5,19 @@
 #include "messages.h"
 #include "numbers.h"
 #include "suggest.h"
+#include "utf8.h"
 
 #include <srp/vec3.h>
 
-#include <float.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-const cli_range CLI_ANY = {-DBL_MAX, DBL_MAX, false, "a number"};
-const cli_range CLI_POSITIVE = {0.0, DBL_MAX, true, "a number above 0"};
-const cli_range CLI_NOT_NEGATIVE = {0.0, DBL_MAX, false, "a number not below 0"};
+/* The library's own limits, within which every result is finite. */
+const cli_range CLI_POSITIVE = {1e-30, 1e30, "a number above 0 (1e-30 to 1e30)"};
+const cli_range CLI_NOT_NEGATIVE = {0.0, 1e30, "a number not below 0 (up to 1e30)"};
 
 enum { OPTION_HELP, OPTION_VERSION, COMMON_COUNT };
 
@@ -60,8 +60,17 @@ bool cli_set_text(const cli_option *option, void *target, const char *text) {
     return true;
 }
 
+bool cli_set_title(const cli_option *option, void *target, const char *text) {
+    size_t bad = cli_utf8_find_bad(text);
+    if (text[bad] != '\0') {
+        cli_usage_error("--%s: byte %zu is not UTF-8", option->name, bad + 1);
+        return false;
+    }
+    return cli_set_text(option, target, text);
+}
+
 static bool in_range(const cli_range *range, double value) {
-    return value <= range->max && (range->above_min ? value > range->min : value >= range->min);
+    return value >= range->min && value <= range->max;
 }
 
 bool cli_set_number(const cli_option *option, void *target, const char *text) {
@@ -91,10 +100,20 @@ bool cli_set_bits(const cli_option *option, void *target, const char *text) {
     return true;
 }
 
+/* No coordinate is larger than the library takes. */
+static bool all_within(const double *value, size_t count) {
+    bool within = true;
+    for (size_t i = 0; i < count; ++i) {
+        within = within && fabs(value[i]) <= CLI_NOT_NEGATIVE.max;
+    }
+    return within;
+}
+
 bool cli_set_vector(const cli_option *option, void *target, const char *text) {
     double value[3];
-    if (!cli_read_numbers(text, 3, value)) {
-        return cli_reject(option, text, "three numbers X,Y,Z with commas and no blanks");
+    if (!cli_read_numbers(text, 3, value) || !all_within(value, 3)) {
+        return cli_reject(option, text,
+                          "three numbers X,Y,Z with commas and no blanks, each up to 1e30");
     }
     *(srp_vec3 *)field(option, target) = srp_vec3_make(value[0], value[1], value[2]);
     return true;
@@ -102,10 +121,12 @@ bool cli_set_vector(const cli_option *option, void *target, const char *text) {
 
 bool cli_set_window(const cli_option *option, void *target, const char *text) {
     double value[4];
-    if (!cli_read_numbers(text, 4, value) || !(value[0] < value[1]) || !(value[2] < value[3])) {
+    if (!cli_read_numbers(text, 4, value) || !all_within(value, 4) || !(value[0] < value[1]) ||
+        !(value[2] < value[3])) {
         return cli_reject(
             option, text,
-            "four numbers U0,U1,V0,V1 with U0 < U1 and V0 < V1, commas and no blanks");
+            "four numbers U0,U1,V0,V1 with U0 < U1 and V0 < V1, commas and no blanks, each up to "
+            "1e30");
     }
     memcpy(field(option, target), value, sizeof value);
     return true;
@@ -177,8 +198,55 @@ static size_t place_of(const parser *p, int code) {
     return k;
 }
 
+/* Length of the name in `word`, "--name" or "--name=value"; 0 when it is no long option. */
+static size_t long_name(const char *word, const char **name) {
+    if (word[0] != '-' || word[1] != '-') {
+        return 0;
+    }
+    *name = word + 2;
+    return strcspn(word + 2, "=");
+}
+
+/* Is `word` the beginning of a long option only? getopt_long() takes that for the option, and then
+ * a slip means something: --az of another command would be --az-step here. */
+static bool is_abbreviated(const parser *p, const char *word) {
+    const char *name;
+    size_t length = long_name(word, &name);
+    for (size_t k = 0; k < p->count && length > 0; ++k) {
+        if (strncmp(p->option[k]->name, name, length) == 0 && p->option[k]->name[length] == '\0') {
+            return false;
+        }
+    }
+    return length > 0;
+}
+
+static void explain_unknown(const parser *p, const char *word) {
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
+    const char *beginning = NULL;
+    size_t beginnings = 0;
+    cli_suggestion near = cli_suggestion_begin(name);
+    for (size_t k = 0; k < p->count; ++k) {
+        if (strncmp(p->option[k]->name, name, strlen(name)) == 0) {
+            beginning = p->option[k]->name;
+            ++beginnings;
+        }
+        cli_suggestion_offer(&near, p->option[k]->name);
+    }
+    const char *meant = beginnings == 1 ? beginning : near.best;
+    if (meant != NULL) {
+        cli_usage_error("unknown option '--%s', did you mean '--%s'?", name, meant);
+    } else {
+        cli_usage_error("unknown option '--%s'", name);
+    }
+}
+
 /* The option that getopt_long() stopped at, as the user wrote it. */
 static void explain(const parser *p, int code, const char *word) {
+    if (is_abbreviated(p, word)) {
+        explain_unknown(p, word);
+        return;
+    }
     if (code == ':') {
         size_t k = place_of(p, optopt);
         cli_usage_error("%s needs a value: %s", word, p->option[k]->value);
@@ -192,21 +260,7 @@ static void explain(const parser *p, int code, const char *word) {
         cli_usage_error("unknown option '-%c'", optopt);
         return;
     }
-    char name[64];
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-    size_t matches = 0;
-    cli_suggestion near = cli_suggestion_begin(name);
-    for (size_t k = 0; k < p->count; ++k) {
-        matches += strncmp(p->option[k]->name, name, strlen(name)) == 0;
-        cli_suggestion_offer(&near, p->option[k]->name);
-    }
-    if (matches > 1) {
-        cli_usage_error("option '--%s' is ambiguous", name);
-    } else if (near.best != NULL) {
-        cli_usage_error("unknown option '--%s', did you mean '--%s'?", name, near.best);
-    } else {
-        cli_usage_error("unknown option '--%s'", name);
-    }
+    explain_unknown(p, word);
 }
 
 static bool read_options(parser *p, int argc, char **argv) {
@@ -223,6 +277,12 @@ static bool read_options(parser *p, int argc, char **argv) {
             return false;
         }
         size_t k = place_of(p, code);
+        /* The value is a word of its own, or part of the option's. */
+        const char *word = argv[optind - (optarg != NULL && optarg == argv[optind - 1] ? 2 : 1)];
+        if (code >= LONG_BASE && is_abbreviated(p, word)) {
+            explain_unknown(p, word);
+            return false;
+        }
         if (!p->option[k]->set(p->option[k], p->target[k], optarg)) {
             return false;
         }
@@ -258,5 +318,12 @@ bool cli_command_parse(const cli_command *command, int argc, char **argv, void *
     }
     operands->items = (const char *const *)argv + optind;
     operands->count = (size_t)(argc - optind);
+    for (size_t i = 0; i < operands->count; ++i) {
+        if (operands->items[i][0] == '\0') {
+            *exit_status =
+                cli_usage_error("operand %zu is empty, expected the name of a file", i + 1);
+            return false;
+        }
+    }
     return true;
 }

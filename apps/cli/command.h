@@ -25,11 +25,10 @@ typedef uint64_t cli_given;
 /* What a number may be. */
 typedef struct cli_range {
     double min, max;
-    bool above_min;    /* min itself is out */
     const char *words; /* "a number above 0": what a message says was expected */
 } cli_range;
 
-extern const cli_range CLI_ANY, CLI_POSITIVE, CLI_NOT_NEGATIVE;
+extern const cli_range CLI_POSITIVE, CLI_NOT_NEGATIVE;
 
 /* Values that are given once per mention of an option, in order. Items point into argv. */
 typedef struct cli_list {
@@ -105,8 +104,10 @@ static inline bool cli_is_given(cli_given given, int option) {
 }
 
 /* Setters for option tables. */
-bool cli_set_flag(const cli_option *option, void *target, const char *text);   /* bool */
-bool cli_set_text(const cli_option *option, void *target, const char *text);   /* const char * */
+bool cli_set_flag(const cli_option *option, void *target, const char *text); /* bool */
+bool cli_set_text(const cli_option *option, void *target, const char *text); /* const char * */
+/* const char *, in UTF-8: formats of tables hold nothing else. */
+bool cli_set_title(const cli_option *option, void *target, const char *text);
 bool cli_set_number(const cli_option *option, void *target, const char *text); /* double */
 bool cli_set_count(const cli_option *option, void *target, const char *text);  /* uint32_t */
 bool cli_set_bits(const cli_option *option, void *target, const char *text);   /* uint64_t */

@@ -29,13 +29,6 @@ static char *append_quoted(char *to, const char *word) {
     return to;
 }
 
-/* getopt_long() takes any beginning of a long name that no other option shares. With two letters of
- * it nothing else is meant that starts so, or parsing would have failed. */
-static bool means(const char *word, const char *option) {
-    size_t length = strlen(word);
-    return length > 4 && strncmp(word, option, length) == 0;
-}
-
 char *cli_command_line_join(int argc, char *const *argv, const char *without) {
     size_t size = sizeof "srp";
     for (int i = 0; i < argc; ++i) {
@@ -49,7 +42,7 @@ char *cli_command_line_join(int argc, char *const *argv, const char *without) {
     bool options = true; /* no "--" yet */
     for (int i = 0; i < argc; ++i) {
         options = options && strcmp(argv[i], "--") != 0;
-        if (options && means(argv[i], without)) {
+        if (options && strcmp(argv[i], without) == 0) {
             continue;
         }
         *end++ = ' ';

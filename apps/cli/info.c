@@ -70,7 +70,7 @@ static int read_file(cli_info *info, const char *path, double metres_per_unit) {
     return status;
 }
 
-/* Pins what the user gave, so that a file's word on the same material is not even looked at. */
+/* Pins what the user gave, so that a file's word on the same material does not count. */
 static srp_status pin_given(srp_materials *list, const srp_materials *given, srp_error *error) {
     srp_status status = SRP_OK;
     for (size_t i = 0; i < srp_materials_count(given) && status == SRP_OK; ++i) {
@@ -131,7 +131,11 @@ static int collect_materials(cli_info *info) {
         free(area);
         return no_memory();
     }
-    srp_mesh_material_areas(info->mesh, area);
+    srp_error error;
+    if (srp_mesh_material_areas(info->mesh, area, &error) != SRP_OK) {
+        free(area);
+        return cli_input_error(&error);
+    }
     for (size_t i = 0; i < count; ++i) {
         info_material *material = &info->materials[info->material_count++];
         material->name = srp_mesh_material_name(info->mesh, i);
@@ -188,28 +192,33 @@ static void find_unit(cli_info *info) {
 
 static void find_shape(cli_info *info) {
     const srp_mesh_report *r = &info->report;
+    size_t open = r->components - r->closed_components;
     find(info, "open-edges", r->boundary_edges,
-         "%zu open edges: %zu of %zu components are not closed. Light can fall on the backs of "
+         "%zu open %s: %zu of %zu %s not closed. Light can fall on the backs of "
          "their faces, which carry the same material unless it is one-sided",
-         r->boundary_edges, r->components - r->closed_components, r->components);
-    find(info, "non-manifold-edges", r->nonmanifold_edges,
-         "%zu edges belong to more than two triangles", r->nonmanifold_edges);
+         r->boundary_edges, cli_form(r->boundary_edges, "edge", "edges"), open, r->components,
+         r->components == 1 ? "component is" : cli_form(open, "components is", "components are"));
+    find(info, "non-manifold-edges", r->nonmanifold_edges, "%zu %s to more than two triangles",
+         r->nonmanifold_edges, cli_form(r->nonmanifold_edges, "edge belongs", "edges belong"));
     find(info, "inconsistent-winding", r->inconsistent_edges,
-         "%zu edges lie between triangles that disagree about which side is outside",
-         r->inconsistent_edges);
+         "%zu %s between triangles that disagree about which side is outside",
+         r->inconsistent_edges, cli_form(r->inconsistent_edges, "edge lies", "edges lie"));
     find(info, "inward-components", r->inward_components,
-         "%zu closed components are wound inside out; methods turn them", r->inward_components);
-    find(info, "degenerate", r->degenerate, "%zu triangles have no area; methods leave them out",
-         r->degenerate);
-    find(info, "duplicate", r->duplicate, "%zu triangles repeat another one with the same winding",
-         r->duplicate);
+         "%zu closed %s wound inside out; methods turn %s", r->inward_components,
+         cli_form(r->inward_components, "component is", "components are"),
+         cli_form(r->inward_components, "it", "them"));
+    find(info, "degenerate", r->degenerate, "%zu %s no area; methods leave %s out", r->degenerate,
+         cli_form(r->degenerate, "triangle has", "triangles have"),
+         cli_form(r->degenerate, "it", "them"));
+    find(info, "duplicate", r->duplicate, "%zu %s another one with the same winding", r->duplicate,
+         cli_form(r->duplicate, "triangle repeats", "triangles repeat"));
     find(info, "back-to-back", r->opposite,
          "%zu triangles lie back to back with another one: shells without thickness", r->opposite);
     int kinds = (r->faces_triangle > 0) + (r->faces_quad > 0) + (r->faces_larger > 0);
     find(info, "mixed-faces", kinds > 1 ? 1 : 0,
-         "faces are mixed: %zu triangles, %zu quadrilaterals, %zu larger; all were split into "
-         "triangles",
-         r->faces_triangle, r->faces_quad, r->faces_larger);
+         "faces are mixed: %zu %s, %zu %s, %zu larger; all were split into triangles",
+         r->faces_triangle, cli_form(r->faces_triangle, "triangle", "triangles"), r->faces_quad,
+         cli_form(r->faces_quad, "quadrilateral", "quadrilaterals"), r->faces_larger);
 }
 
 static void find_optics_missing(cli_info *info) {

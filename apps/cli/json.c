@@ -2,41 +2,23 @@
 #include "json.h"
 
 #include "numbers.h"
+#include "utf8.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
-/* Bytes of the UTF-8 sequence that begins at `p`, 0 when it is not one (RFC 3629, section 4). */
-static size_t utf8_length(const unsigned char *p) {
-    if (p[0] < 0x80) {
-        return 1;
-    }
-    size_t length = p[0] >= 0xf0 ? 4 : p[0] >= 0xe0 ? 3 : 2;
-    if (p[0] < 0xc2 || p[0] > 0xf4 || (p[0] == 0xe0 && p[1] < 0xa0) ||
-        (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf0 && p[1] < 0x90) ||
-        (p[0] == 0xf4 && p[1] > 0x8f)) {
-        return 0;
-    }
-    for (size_t i = 1; i < length; ++i) {
-        if ((p[i] & 0xc0) != 0x80) { /* the final 0 byte, too */
-            return 0;
-        }
-    }
-    return length;
-}
-
 static void write_string(FILE *out, const char *text) {
     fputc('"', out);
-    for (const unsigned char *p = (const unsigned char *)text; *p != '\0';) {
-        size_t length = utf8_length(p);
+    for (const char *p = text; *p != '\0';) {
+        size_t length = cli_utf8_length(p);
         if (length == 0) {
             fputs("\\ufffd", out); /* file names need not be UTF-8, JSON must */
             length = 1;
         } else if (*p == '"' || *p == '\\') {
             fprintf(out, "\\%c", *p);
-        } else if (*p < 0x20) {
-            fprintf(out, "\\u%04x", *p);
+        } else if ((unsigned char)*p < 0x20) {
+            fprintf(out, "\\u%04x", (unsigned)*p);
         } else {
             fwrite(p, 1, length, out);
         }

@@ -6,6 +6,7 @@
 #include "manual.h"
 #include "messages.h"
 #include "suggest.h"
+#include "system.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -91,6 +92,7 @@ static int dispatch(int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
+    cli_system_begin();
     int status = dispatch(argc, argv);
     /* Results that did not reach the disk are not results. */
     errno = 0;

@@ -17,6 +17,11 @@ int cli_usage_error(const char *format, ...) SRP_PRINTF(1, 2);
 /* "--grid x: expected ..."; false, for setters of options. */
 bool cli_reject(const cli_option *option, const char *text, const char *expected);
 
+/* The word that goes with a number: cli_form(1, "triangle", "triangles"). */
+static inline const char *cli_form(size_t count, const char *one, const char *many) {
+    return count == 1 ? one : many;
+}
+
 /* What went wrong, as "file:line:column: message", and the exit status for it: something was read,
  * or asked of the library with values from the command line ... */
 int cli_input_error(const srp_error *error);

@@ -60,11 +60,11 @@ static const cli_option MODEL_OPTIONS[MODEL_OPTION_COUNT] = {
 
 const cli_group cli_group_model = {"Model", MODEL_OPTIONS, MODEL_OPTION_COUNT};
 
-static const cli_range CELLS = {1.0, 32768.0, false, "a whole number from 1 to 32768"};
-static const cli_range REFLECTIONS = {0.0, 100.0, false, "a whole number from 0 to 100"};
-static const cli_range DIFFUSE = {0.0, 1024.0, false, "a whole number from 0 to 1024"};
-static const cli_range BEAMS = {0.0, 1e9, false, "a whole number from 0 to 1000000000"};
-static const cli_range THREADS = {1.0, 1024.0, false, "a whole number from 1 to 1024"};
+static const cli_range CELLS = {1.0, 32768.0, "a whole number from 1 to 32768"};
+static const cli_range REFLECTIONS = {0.0, 100.0, "a whole number from 0 to 100"};
+static const cli_range DIFFUSE = {0.0, 1024.0, "a whole number from 0 to 1024"};
+static const cli_range BEAMS = {0.0, 1e9, "a whole number from 0 to 1000000000"};
+static const cli_range THREADS = {1.0, 1024.0, "a whole number from 1 to 1024"};
 
 static const cli_option METHOD_OPTIONS[METHOD_OPTION_COUNT] = {
     [METHOD_NAME] = {.name = "method",

@@ -57,7 +57,7 @@ int cli_outputs_check(const cli_list *paths, cli_table_content content, const ch
             return status;
         }
         for (size_t k = 0; k < i; ++k) {
-            if (strcmp(paths->items[i], paths->items[k]) == 0) {
+            if (cli_system_same_name(paths->items[i], paths->items[k])) {
                 return cli_usage_error("%s is given twice as output", paths->items[i]);
             }
         }

@@ -37,7 +37,7 @@ void cli_progress_format(char *buffer, size_t size, int columns, double seconds,
     }
     int percent = (int)(100.0 * share);
     int tail_width =
-        snprintf(tail, sizeof tail, "%3d %%  %zu of %zu directions%s%s%s", percent, done, total,
+        snprintf(tail, sizeof tail, "%3d %%  %zu of %zu nodes%s%s%s", percent, done, total,
                  left[0] != '\0' ? ", " : "", left, left[0] != '\0' ? " left" : "");
     int room = columns - 1 - tail_width - 3; /* "[", "] " */
     if (room >= BAR_MIN) {

@@ -25,7 +25,7 @@ static const cli_option OPTIONS[RESTATE_OPTION_COUNT] = {
     [RESTATE_TITLE] = {.name = "title",
                        .value = "TEXT",
                        .help = "Title in the output. Default: that of the input.",
-                       .set = cli_set_text,
+                       .set = cli_set_title,
                        .offset = offsetof(cli_restate_options, title)},
 };
 

@@ -32,6 +32,10 @@ double cli_system_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+void cli_system_begin(void) {
+    signal(SIGXFSZ, SIG_IGN);
+}
+
 static volatile sig_atomic_t signal_seen;
 
 static void keep_signal(int number) {
@@ -110,6 +114,23 @@ bool cli_system_same_file(const char *a, const char *b) {
     struct stat first, second;
     return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
            first.st_ino == second.st_ino;
+}
+
+static const char *base_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? slash + 1 : path;
+}
+
+bool cli_system_same_name(const char *a, const char *b) {
+    if (strcmp(a, b) == 0) {
+        return true;
+    }
+    char *first = directory_of(a), *second = directory_of(b);
+    bool same = first != NULL && second != NULL && strcmp(base_name(a), base_name(b)) == 0 &&
+                cli_system_same_file(first, second);
+    free(first);
+    free(second);
+    return same;
 }
 
 bool cli_system_file_exists(const char *path) {

@@ -14,6 +14,10 @@ int cli_system_stderr_columns(void);
 /* Seconds of a clock that only goes forward. */
 double cli_system_seconds(void);
 
+/* Once, before all else: a file that grows beyond the limit of the system (ulimit -f) fails to be
+ * written, as on a full disk, and does not end the program. */
+void cli_system_begin(void);
+
 /* From here on the first SIGINT, SIGTERM or SIGHUP is kept; a second one ends the program. */
 void cli_system_catch_signals(void);
 /* The signal that came, 0 when none did. */
@@ -26,6 +30,8 @@ void cli_system_die_by_signal(int signal_number);
 bool cli_system_can_write(const char *path, const char **reason);
 /* Are these two names of one file that exists? */
 bool cli_system_same_file(const char *a, const char *b);
+/* Do these two name one place for a file, whether it exists or not: one name in one directory? */
+bool cli_system_same_name(const char *a, const char *b);
 bool cli_system_file_exists(const char *path);
 
 #endif

@@ -27,7 +27,8 @@ static srp_status respond(const srp_prepared *prepared, size_t count, const srp_
     (void)error;
     memset(responses, 0, count * sizeof *responses);
     for (size_t i = 0; i < count; ++i) {
-        responses[i].f = srp_vec3_scale(-prepared->scene->cr * prepared->scene->area, s_body[i]);
+        srp_vec3 f = srp_vec3_scale(-prepared->scene->cr * prepared->scene->area, s_body[i]);
+        responses[i].f = srp_vec3_make(f.x + 0.0, f.y + 0.0, f.z + 0.0); /* no -0 */
         responses[i].lit_area = prepared->scene->area;
     }
     return SRP_OK;

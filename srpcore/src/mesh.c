@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "error.h"
+#include "limits.h"
 #include "mesh_internal.h"
 
 #include <stdlib.h>
@@ -48,6 +49,11 @@ static srp_status check_arrays(const srp_vec3 *vertices, size_t vertex_count,
     for (size_t i = 0; i < vertex_count; ++i) {
         if (!srp_vec3_is_finite(vertices[i])) {
             return srp_fail(error, SRP_BAD_ARGUMENT, "vertex %zu is not finite", i);
+        }
+        if (!(srp_vec3_largest(vertices[i]) <= SRP_REACH_MAX)) {
+            return srp_fail(error, SRP_BAD_ARGUMENT,
+                            "vertex %zu has a coordinate of %g m, expected at most %g m", i,
+                            srp_vec3_largest(vertices[i]), SRP_REACH_MAX);
         }
     }
     for (size_t i = 0; i < triangle_count; ++i) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "error.h"
+#include "limits.h"
 #include "method_internal.h"
 #include "platform.h"
 
@@ -89,6 +90,11 @@ static srp_status check_params(const srp_method *method, const srp_method_params
     }
     if (!srp_vec3_is_finite(params->reference)) {
         return srp_fail(error, SRP_BAD_ARGUMENT, "the reference point is not finite");
+    }
+    if (!(srp_vec3_largest(params->reference) <= SRP_REACH_MAX)) {
+        return srp_fail(error, SRP_BAD_ARGUMENT,
+                        "the reference point has a coordinate of %g m, expected at most %g m",
+                        srp_vec3_largest(params->reference), SRP_REACH_MAX);
     }
     if (method->capabilities & SRP_METHOD_BOUNCE) {
         srp_status status = check_bounces(params, error);

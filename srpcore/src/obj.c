@@ -4,6 +4,7 @@
  * vertices, then the faces, because a face may name vertices that come after it.
  */
 #include "error.h"
+#include "limits.h"
 #include "mesh_internal.h"
 #include "platform.h"
 #include "polygon.h"
@@ -70,10 +71,11 @@ static srp_status read_vertex(obj_reader *reader) {
             return status;
         }
         value[i] *= reader->metres_per_unit;
-        if (!isfinite(value[i])) {
-            return srp_fail_at(reader->error, SRP_BAD_FORMAT, reader->text.name, where.line,
-                               where.column, "%s is not finite in metres",
-                               srp_token_excerpt(where).text);
+        if (!(fabs(value[i]) <= SRP_REACH_MAX)) {
+            return srp_fail_at(reader->error, SRP_BAD_DATA, reader->text.name, where.line,
+                               where.column,
+                               "%s is %g m, expected at most %g m: is its unit right?", what[i],
+                               value[i], SRP_REACH_MAX);
         }
     }
     srp_token token;
@@ -446,12 +448,13 @@ static srp_status read_mesh(obj_reader *reader) {
     }
     if (reader->mesh->triangle_count == 0) {
         return srp_fail_at(reader->error, SRP_BAD_FORMAT, reader->text.name, 0, 0,
-                           "found %zu vertices and no face, expected an OBJ file with faces (f)",
-                           reader->mesh->vertex_count);
+                           "found %zu vert%s and no face, expected an OBJ file with faces (f)",
+                           reader->mesh->vertex_count,
+                           reader->mesh->vertex_count == 1 ? "ex" : "ices");
     }
     if (!reader->has_area) {
         return srp_fail_at(reader->error, SRP_BAD_DATA, reader->text.name, 0, 0,
-                           "none of its %zu triangles has an area", reader->mesh->triangle_count);
+                           "none of its triangles has an area");
     }
     return SRP_OK;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "error.h"
+#include "limits.h"
 #include "platform.h"
 #include "text.h"
 
@@ -16,7 +17,7 @@ static srp_status bad_value(const srp_text *text, srp_token where, const char *e
 
 /* A unit vector along v; scaled first, so that no square over- or underflows. */
 static srp_vec3 unit_of(srp_vec3 v) {
-    double largest = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+    double largest = srp_vec3_largest(v);
     srp_vec3 scaled = srp_vec3_make(v.x / largest, v.y / largest, v.z / largest);
     return srp_vec3_scale(1.0 / srp_vec3_norm(scaled), scaled);
 }
@@ -42,8 +43,10 @@ static srp_status read_plate(srp_text *text, srp_plate *out, srp_error *error) {
         return srp_fail_at(error, SRP_BAD_DATA, text->name, where[0].line, where[0].column,
                            "the normal is 0 0 0, expected a direction");
     }
-    if (value[3] <= 0.0) {
-        return bad_value(text, where[3], "an area above 0 m^2", error);
+    if (!(value[3] > 0.0 && value[3] <= SRP_AREA_MAX)) {
+        return bad_value(text, where[3],
+                         value[3] > 0.0 ? "an area of at most 1e60 m^2" : "an area above 0 m^2",
+                         error);
     }
     for (int i = 4; i < 6; i++) {
         if (value[i] < 0.0 || value[i] > 1.0) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "error.h"
+#include "limits.h"
 #include "mesh_internal.h"
 #include "scene_internal.h"
 #include "text.h"
@@ -189,12 +190,14 @@ static void measure_facet(const srp_scene *scene, srp_facet *facet) {
     facet->area = 0.5 * length;
 }
 
-/* Facets are the triangles with an area; those of components that are inside out are turned. */
+/* Facets are the triangles with an area, each once: of faces at the same places the lower index
+ * hides the others. Those of components that are inside out are turned. */
 static void take_facets(srp_scene *scene, const srp_mesh *mesh, const srp_topology *topology,
                         const uint32_t *place, uint32_t *facet_of) {
     const uint32_t *material = srp_mesh_triangle_materials(mesh);
     for (size_t i = 0; i < topology->triangle_count; ++i) {
-        facet_of[i] = topology->degenerate[i] ? SRP_NO_NEIGHBOUR : (uint32_t)scene->facet_count++;
+        bool seen = !topology->degenerate[i] && !topology->repeats[i];
+        facet_of[i] = seen ? (uint32_t)scene->facet_count++ : SRP_NO_NEIGHBOUR;
     }
     for (size_t i = 0; i < topology->triangle_count; ++i) {
         if (facet_of[i] == SRP_NO_NEIGHBOUR) {
@@ -240,16 +243,9 @@ static void measure_bounds(srp_scene *scene) {
  * are noise; a few needles may be, but not a noticeable part of the surface. */
 #define RESOLUTION (0x1p14 * DBL_EPSILON)
 #define UNRESOLVED_SHARE_MAX 1e-6
-/* Products of a few lengths must stay within the range of a double [m]. */
-#define SIZE_MAX_METRES 1e60
 
 static srp_status check_resolution(const srp_scene *scene, srp_error *error) {
     double size = srp_vec3_norm(scene->centre) + scene->radius;
-    if (!(size < SIZE_MAX_METRES)) {
-        return srp_fail(error, SRP_BAD_DATA,
-                        "the mesh reaches out to %g m, expected less than %g m: is its unit right?",
-                        size, SIZE_MAX_METRES);
-    }
     double total = 0.0, unresolved = 0.0;
     for (size_t i = 0; i < scene->facet_count; ++i) {
         const srp_facet *facet = &scene->facets[i];
@@ -288,8 +284,7 @@ static srp_status take_mesh(srp_scene *scene, const srp_mesh *mesh, srp_error *e
     take_vertices(scene, mesh, &topology, place);
     take_facets(scene, mesh, &topology, place, facet_of);
     if (scene->facet_count == 0) {
-        status = srp_fail(error, SRP_BAD_DATA, "none of the mesh's %zu triangles has an area",
-                          topology.triangle_count);
+        status = srp_fail(error, SRP_BAD_DATA, "none of the mesh's triangles has an area");
         goto done;
     }
     status = srp_winding_open_negative(scene, topology.component, facet_of, topology.triangle_count,
@@ -338,9 +333,10 @@ static srp_status check_plate(const srp_plate *plate, size_t number, srp_error *
     if (!(isfinite(length) && length > 0.0)) {
         return srp_fail(error, SRP_BAD_DATA, "plate %zu has no normal", number);
     }
-    if (!(isfinite(plate->area) && plate->area > 0.0)) {
-        return srp_fail(error, SRP_BAD_DATA, "plate %zu has area %g m^2, expected more than 0",
-                        number, plate->area);
+    if (!(plate->area > 0.0 && plate->area <= SRP_AREA_MAX)) {
+        return srp_fail(error, SRP_BAD_DATA,
+                        "plate %zu has area %g m^2, expected more than 0 and at most %g", number,
+                        plate->area, SRP_AREA_MAX);
     }
     return srp_optics_check(plate->optics, error);
 }
@@ -377,11 +373,13 @@ srp_status srp_scene_from_plates(const srp_plate *plates, size_t count, srp_scen
 }
 
 srp_status srp_scene_from_sphere(double cr, double area, srp_scene **out, srp_error *error) {
-    if (!(isfinite(cr) && cr >= 0.0)) {
-        return srp_fail(error, SRP_BAD_ARGUMENT, "coefficient Cr of %g, expected 0 or more", cr);
+    if (!SRP_WITHIN(cr, 0.0, SRP_CR_MAX)) {
+        return srp_fail(error, SRP_BAD_ARGUMENT, "coefficient Cr of %g, expected 0 to %g", cr,
+                        SRP_CR_MAX);
     }
-    if (!(isfinite(area) && area > 0.0)) {
-        return srp_fail(error, SRP_BAD_ARGUMENT, "area of %g m^2, expected more than 0", area);
+    if (!(area > 0.0 && area <= SRP_AREA_MAX)) {
+        return srp_fail(error, SRP_BAD_ARGUMENT,
+                        "area of %g m^2, expected more than 0 and at most %g", area, SRP_AREA_MAX);
     }
     srp_scene *scene = scene_new(SRP_SHAPE_SPHERE, 0);
     if (scene == NULL) {

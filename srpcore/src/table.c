@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "error.h"
+#include "limits.h"
 #include "table_internal.h"
 
 #include <srp/const.h>
@@ -214,12 +215,15 @@ srp_status srp_table_create(const srp_prepared *prepared, srp_grid grid, bool wi
 }
 
 srp_status srp_table_check_light(srp_sunlight light, double mass, srp_error *error) {
-    if (!(light.flux > 0.0 && isfinite(light.flux) && light.au > 0.0 && isfinite(light.au))) {
+    if (!SRP_WITHIN(light.flux, SRP_SCALE_MIN, SRP_SCALE_MAX) ||
+        !SRP_WITHIN(light.au, SRP_SCALE_MIN, SRP_SCALE_MAX)) {
         return srp_fail(error, SRP_BAD_ARGUMENT,
-                        "solar flux %g W/m^2 at %g m, expected both above 0", light.flux, light.au);
+                        "solar flux %g W/m^2 at %g m, expected both above 0 (%g to %g)", light.flux,
+                        light.au, SRP_SCALE_MIN, SRP_SCALE_MAX);
     }
-    if (!isnan(mass) && !(mass > 0.0 && isfinite(mass))) {
-        return srp_fail(error, SRP_BAD_ARGUMENT, "mass of %g kg, expected above 0", mass);
+    if (!isnan(mass) && !SRP_WITHIN(mass, SRP_SCALE_MIN, SRP_SCALE_MAX)) {
+        return srp_fail(error, SRP_BAD_ARGUMENT, "mass of %g kg, expected above 0 (%g to %g)", mass,
+                        SRP_SCALE_MIN, SRP_SCALE_MAX);
     }
     return SRP_OK;
 }

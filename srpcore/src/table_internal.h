@@ -41,7 +41,8 @@ srp_status srp_table_set_text(const char **slot, const char *text, size_t size, 
 srp_status srp_table_set_material(srp_table *table, size_t index, const char *name, size_t size,
                                   srp_optics optics, srp_error *error);
 
-/* SRP_BAD_ARGUMENT unless flux and au are above 0, and mass above 0 or NAN (not given). */
+/* SRP_BAD_ARGUMENT unless flux, au and mass are within SRP_SCALE_MIN and SRP_SCALE_MAX; the mass
+ * may be NAN (not given). */
 srp_status srp_table_check_light(srp_sunlight light, double mass, srp_error *error);
 
 /* Marks a node, whose response is in place, as there. */

@@ -5,6 +5,7 @@
  * content before the table is handed out.
  */
 #include "error.h"
+#include "limits.h"
 #include "platform.h"
 #include "table_netcdf.h"
 
@@ -287,9 +288,10 @@ static int get_variable(source *in, const char *name, nc_type type, int rank,
 static srp_status bad_node(source *in, size_t index, const char *name, double value) {
     srp_grid grid = in->table->grid;
     return srp_fail_at(in->error, SRP_BAD_DATA, in->path, 0, 0,
-                       "%s is %g at azimuth %g, elevation %g: expected a finite number", name,
-                       value, srp_grid_azimuth_deg(grid, (uint32_t)(index / grid.el_count)),
-                       srp_grid_elevation_deg(grid, (uint32_t)(index % grid.el_count)));
+                       "%s is %g at azimuth %g, elevation %g: expected a number of at most %g",
+                       name, value, srp_grid_azimuth_deg(grid, (uint32_t)(index / grid.el_count)),
+                       srp_grid_elevation_deg(grid, (uint32_t)(index % grid.el_count)),
+                       SRP_RESPONSE_MAX);
 }
 
 static void get_column(source *in, const srp_column *column) {
@@ -313,7 +315,7 @@ static void get_column(source *in, const srp_column *column) {
             continue;
         }
         for (size_t n = 0; n < column->width && is_fine(in); ++n) {
-            if (!isfinite(from[n])) {
+            if (!(fabs(from[n]) <= SRP_RESPONSE_MAX)) {
                 in->status = bad_node(in, node, column->name, from[n]);
             }
         }

@@ -51,9 +51,9 @@ static void print_header(srp_sheet *sheet, const srp_table *table) {
     snprintf(text, sizeof text, "(%.17g, %.17g, %.17g)", info->params.reference.x,
              info->params.reference.y, info->params.reference.z);
     print_value(sheet, "Center of Mass", text);
+    snprintf(text, sizeof text, "%s %s", srp_table_writer, info->version);
+    print_value(sheet, "Software", text);
     if (info->method[0] != '\0') {
-        snprintf(text, sizeof text, "srpcore %s", info->version);
-        print_value(sheet, "Software", text);
         snprintf(text, sizeof text, "%s on %s", info->method, info->device);
         print_value(sheet, "Method", text);
         print_value(sheet, "Shape hash", info->shape_hash);
@@ -106,9 +106,13 @@ static void print_node(srp_sheet *sheet, const srp_response *node, bool with_mom
     const double force[] = {node->f.x, node->f.y, node->f.z};
     print_numbers(sheet, 3, force);
     if (with_moment) {
-        double ff = srp_vec3_dot(node->f, node->f);
-        double distance = ff > 0.0 ? srp_vec3_norm(srp_vec3_cross(node->f, node->t)) / ff : 0.0;
-        const double rest[] = {sqrt(ff), node->t.x, node->t.y, node->t.z, srp_vec3_norm(node->t),
+        /* |f x t| / f.f, without the product of four large numbers. */
+        double size = srp_vec3_norm(node->f), distance = 0.0;
+        if (size > 0.0) {
+            srp_vec3 along = srp_vec3_scale(1.0 / size, node->f);
+            distance = srp_vec3_norm(srp_vec3_cross(along, node->t)) / size;
+        }
+        const double rest[] = {size,    node->t.x, node->t.y, node->t.z, srp_vec3_norm(node->t),
                                distance};
         print_numbers(sheet, 6, rest);
     }
@@ -134,11 +138,14 @@ static srp_status write_spo(const srp_table *table, const char *path, srp_error 
 
 typedef enum section { IN_HEADER, IN_MOTIONS, BEHIND_END, IN_DATA } section;
 
+enum { FIELD_NAME, FIELD_METHOD, FIELD_MINIMUM, FIELD_MAXIMUM, FIELD_STEP, FIELD_COUNT };
+
 /* What a `Motion` block says; NAN, "" while it has not. */
 typedef struct motion {
     srp_token name, method;
     double minimum, maximum, step;
     size_t line;
+    size_t field_line[FIELD_COUNT]; /* 0 while it has not */
 } motion;
 
 typedef struct reader {
@@ -146,16 +153,18 @@ typedef struct reader {
     size_t size;
     srp_error *error;
     section section;
-    bool has_analysis;
+    /* Lines of what may be said once, 0 while it is not. */
+    size_t analysis_line, center_line, count_line, units_line;
+    bool is_ours; /* srpcore wrote the file */
     srp_token title;
     double center[3];
     motion motions[2];
     int motion_count;
     int64_t record_count; /* -1 while unknown */
-    bool has_units, has_torque;
+    bool has_torque;
     double force_scale[3], torque_scale[3];
     srp_table *table;
-    size_t rows;
+    size_t rows, columns; /* columns of the first row */
 } reader;
 
 static bool starts_with(srp_token token, const char *prefix) {
@@ -253,7 +262,7 @@ static srp_status take_header_line(reader *in, srp_token line) {
         if (!srp_token_is(value, "Area")) {
             return srp_text_expected(&in->text, value, "the analysis type 'Area'", in->error);
         }
-        in->has_analysis = true;
+        return srp_table_key_once(&in->text, key, &in->analysis_line, in->error);
     } else if (srp_token_is(key, "System")) {
         in->title = value;
     } else if (srp_token_is(key, "Center of Mass")) {
@@ -261,6 +270,9 @@ static srp_status take_header_line(reader *in, srp_token line) {
         if (parse_center(in, value, center)) {
             memcpy(in->center, center, sizeof center);
         }
+        return srp_table_key_once(&in->text, key, &in->center_line, in->error);
+    } else if (srp_token_is(key, "Software")) {
+        in->is_ours = starts_with(value, srp_table_writer);
     }
     return SRP_OK;
 }
@@ -288,6 +300,37 @@ static srp_status take_record_count(reader *in, srp_token value) {
                              in->error);
 }
 
+static srp_status take_field(const reader *in, motion *to, srp_token key, srp_token value) {
+    static const char *const names[FIELD_COUNT] = {"Name", "Method", "Minimum", "Maximum", "Step"};
+    size_t field = 0;
+    while (field < FIELD_COUNT && !srp_token_is(key, names[field])) {
+        field++;
+    }
+    if (field == FIELD_COUNT) {
+        return srp_text_expected(&in->text, key,
+                                 "Motion, Name, Method, Minimum, Maximum, Step or Record count",
+                                 in->error);
+    }
+    srp_status status = srp_table_key_once(&in->text, key, &to->field_line[field], in->error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    switch (field) {
+    case FIELD_NAME:
+        to->name = value;
+        return SRP_OK;
+    case FIELD_METHOD:
+        to->method = value;
+        return SRP_OK;
+    case FIELD_MINIMUM:
+        return srp_token_double(&in->text, value, "the smallest angle", &to->minimum, in->error);
+    case FIELD_MAXIMUM:
+        return srp_token_double(&in->text, value, "the largest angle", &to->maximum, in->error);
+    default:
+        return srp_token_double(&in->text, value, "the step", &to->step, in->error);
+    }
+}
+
 static srp_status take_motion_line(reader *in, srp_token line) {
     srp_token key, value;
     if (starts_with(line, "Current")) {
@@ -302,7 +345,8 @@ static srp_status take_motion_line(reader *in, srp_token line) {
         return status;
     }
     if (srp_token_is(key, "Record count")) {
-        return take_record_count(in, value);
+        status = srp_table_key_once(&in->text, key, &in->count_line, in->error);
+        return status == SRP_OK ? take_record_count(in, value) : status;
     }
     if (in->section == BEHIND_END) {
         return srp_text_expected(&in->text, key, "'Record count : N'", in->error);
@@ -313,23 +357,7 @@ static srp_status take_motion_line(reader *in, srp_token line) {
     if (in->motion_count == 0) {
         return srp_text_expected(&in->text, key, "'Motion : 1'", in->error);
     }
-    motion *last = &in->motions[in->motion_count - 1];
-    if (srp_token_is(key, "Name")) {
-        last->name = value;
-    } else if (srp_token_is(key, "Method")) {
-        last->method = value;
-    } else if (srp_token_is(key, "Minimum")) {
-        return srp_token_double(&in->text, value, "the smallest angle", &last->minimum, in->error);
-    } else if (srp_token_is(key, "Maximum")) {
-        return srp_token_double(&in->text, value, "the largest angle", &last->maximum, in->error);
-    } else if (srp_token_is(key, "Step")) {
-        return srp_token_double(&in->text, value, "the step", &last->step, in->error);
-    } else {
-        return srp_text_expected(&in->text, key,
-                                 "Motion, Name, Method, Minimum, Maximum, Step or Record count",
-                                 in->error);
-    }
-    return SRP_OK;
+    return take_field(in, &in->motions[in->motion_count - 1], key, value);
 }
 
 static srp_status check_motion(const reader *in, const motion *found, const char *name,
@@ -352,7 +380,7 @@ static srp_status check_motion(const reader *in, const motion *found, const char
 
 /* All that stands before the data has been read: checks it, and makes the table. */
 static srp_status end_header(reader *in, srp_token line) {
-    const char *missing = !in->has_analysis        ? "'Analysis Type : Area'"
+    const char *missing = in->analysis_line == 0   ? "'Analysis Type : Area'"
                           : in->motion_count < 2   ? "two motions, azimuth and elevation,"
                           : in->record_count == -1 ? "'Record count : N'"
                                                    : NULL;
@@ -425,11 +453,28 @@ static srp_status take_units(reader *in) {
         in->has_torque = !isnan(in->torque_scale[k]);
     }
     in->table->info.has_moment = in->has_torque;
-    in->has_units = true;
     return SRP_OK;
 }
 
-static srp_status take_row(reader *in) {
+/* A row with fewer columns than the others has lost some, one with more is no row. */
+static srp_status check_columns(reader *in, srp_token line) {
+    srp_text row = in->text;
+    srp_token token;
+    size_t count = 0;
+    row.at = line.text;
+    while (srp_text_next_token(&row, &token)) {
+        count++;
+    }
+    in->columns = in->rows == 0 ? count : in->columns;
+    if (count != in->columns) {
+        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, line.line, 0,
+                           "found %zu columns, expected %zu as in the first row", count,
+                           in->columns);
+    }
+    return SRP_OK;
+}
+
+static srp_status take_row(reader *in, srp_token line) {
     srp_table_row row;
     srp_vec3 f, t = {0.0, 0.0, 0.0};
     double total;
@@ -447,6 +492,9 @@ static srp_status take_row(reader *in) {
         status = srp_table_row_vec3(&in->text, "Torque", in->torque_scale, &t, in->error);
     }
     if (status == SRP_OK) {
+        status = check_columns(in, line);
+    }
+    if (status == SRP_OK) {
         in->table->nodes[in->rows].f = f;
         in->table->nodes[in->rows].t = t;
         srp_table_mark_filled(in->table, in->rows++);
@@ -459,13 +507,15 @@ static srp_status take_data_line(reader *in, srp_token line) {
         return SRP_OK;
     }
     if (starts_with(line, "degree")) {
-        return take_units(in);
+        srp_status status = srp_table_key_once(&in->text, srp_token_part(line, 0, strlen("degree")),
+                                               &in->units_line, in->error);
+        return status == SRP_OK ? take_units(in) : status;
     }
-    if (!in->has_units) {
+    if (in->units_line == 0) {
         return srp_text_expected(&in->text, line, "a line of units, 'degrees degrees m^2 ...'",
                                  in->error);
     }
-    return take_row(in);
+    return take_row(in, line);
 }
 
 static srp_status take_line(reader *in) {
@@ -499,6 +549,12 @@ static srp_status end_file(reader *in) {
         return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, in->text.line, 0,
                            "the file ends after %zu records, expected %zu", in->rows,
                            srp_grid_node_count(in->table->grid));
+    }
+    if (in->is_ours) {
+        srp_status status = srp_table_end_of_text(&in->text, in->error);
+        if (status != SRP_OK) {
+            return status;
+        }
     }
     if (in->has_torque) {
         in->table->info.params.reference =

@@ -2,6 +2,7 @@
 #include "table_text.h"
 
 #include "error.h"
+#include "limits.h"
 #include "platform.h"
 
 #include <math.h>
@@ -126,13 +127,40 @@ srp_status srp_table_row_vec3(srp_text *text, const char *name, const double sca
     for (int k = 0; k < 3; ++k) {
         char what[64];
         snprintf(what, sizeof what, "%s(%c)", name, "XYZ"[k]);
-        srp_status status = srp_text_double(text, what, &value[k], NULL, error);
+        srp_token where;
+        srp_status status = srp_text_double(text, what, &value[k], &where, error);
         if (status != SRP_OK) {
             return status;
         }
         value[k] *= scale[k];
+        if (!(fabs(value[k]) <= SRP_RESPONSE_MAX)) {
+            return srp_fail_at(error, SRP_BAD_DATA, text->name, where.line, where.column,
+                               "found %s: %s is %g in metres, expected at most %g",
+                               srp_token_excerpt(where).text, what, value[k], SRP_RESPONSE_MAX);
+        }
     }
     *out = srp_vec3_make(value[0], value[1], value[2]);
+    return SRP_OK;
+}
+
+srp_status srp_table_key_once(const srp_text *text, srp_token key, size_t *line, srp_error *error) {
+    if (*line != 0) {
+        return srp_fail_at(error, SRP_BAD_FORMAT, text->name, key.line, key.column,
+                           "found %s again, expected it once: it is given in line %zu",
+                           srp_token_excerpt(key).text, *line);
+    }
+    *line = key.line;
+    return SRP_OK;
+}
+
+const char srp_table_writer[] = "srpcore";
+
+srp_status srp_table_end_of_text(const srp_text *text, srp_error *error) {
+    if (text->end[-1] != '\n' && text->end[-1] != '\r') {
+        return srp_fail_at(error, SRP_BAD_FORMAT, text->name, text->line, 0,
+                           "the last line has no end, expected one in a file of srpcore: it is cut "
+                           "short");
+    }
     return SRP_OK;
 }
 

@@ -40,10 +40,18 @@ srp_status srp_table_row_begin(srp_text *text, srp_table_row *out, srp_error *er
  * in the inner, both ascending, each within a thousandth of a step (GMAT's own tolerance). */
 srp_status srp_table_row_check(const srp_text *text, srp_grid grid, size_t index,
                                const srp_table_row *row, srp_error *error);
-/* Takes the next three numbers, named "NAME(X)", ... in complaints, times `scale`. SRP_BAD_FORMAT.
- */
+/* Takes the next three numbers, named "NAME(X)", ... in complaints, times `scale`, which
+ * makes areas [m^2] and moments [m^3] of them. SRP_BAD_FORMAT, SRP_BAD_DATA (above
+ * SRP_RESPONSE_MAX). */
 srp_status srp_table_row_vec3(srp_text *text, const char *name, const double scale[3],
                               srp_vec3 *out, srp_error *error);
+/* Remembers in *line (0 before) where `key` stands; SRP_BAD_FORMAT when it stands there again. */
+srp_status srp_table_key_once(const srp_text *text, srp_token key, size_t *line, srp_error *error);
+/* What our own files name as the program that wrote them. Whole, they end with the end of a line,
+ * so that one cut inside its last number is told from one that has fewer digits. SRP_BAD_FORMAT for
+ * a text without it. */
+extern const char srp_table_writer[];
+srp_status srp_table_end_of_text(const srp_text *text, srp_error *error);
 /* The grid of the steps [deg] that a file gives; SRP_BAD_FORMAT when they do not divide their
  * ranges, or when a text of `size` bytes is too short for all rows of the grid: asked before memory
  * is taken on the word of a file. */

@@ -7,6 +7,7 @@
  *     a = (P0 / c) f / m,  |a| its norm
  */
 #include "error.h"
+#include "limits.h"
 #include "platform.h"
 #include "table_text.h"
 
@@ -21,11 +22,13 @@ static double acceleration_per_area(srp_sunlight light, double mass) {
 
 /* Keys of the numbers in the head. */
 static const char KEY_TITLE[] = "title";
+static const char KEY_SOFTWARE[] = "software";
 static const char KEY_MASS[] = "mass [kg]";
 static const char KEY_FLUX[] = "solar flux [W/m^2]";
 static const char KEY_AU[] = "astronomical unit [m]";
 static const char KEY_AZ_STEP[] = "azimuth step [deg]";
 static const char KEY_EL_STEP[] = "elevation step [deg]";
+enum { NUMBER_COUNT = 5 };
 
 /* ---- Writing -------------------------------------------------------------------------------- */
 
@@ -44,8 +47,8 @@ static void print_head(srp_sheet *sheet, const srp_table *table) {
     srp_sheet_print(sheet, "# Acceleration by sunlight at 1 AU, over the direction to the Sun in "
                            "body axes\n");
     print_text(sheet, KEY_TITLE, info->title);
+    print_text(sheet, KEY_SOFTWARE, srp_table_writer);
     if (info->method[0] != '\0') {
-        print_text(sheet, "software", "srpcore");
         print_text(sheet, "library version", info->version);
         print_text(sheet, "method", info->method);
         print_text(sheet, "shape hash", info->shape_hash);
@@ -89,27 +92,37 @@ typedef struct reader {
     size_t size;
     srp_error *error;
     srp_token title;
-    double mass, az_step, el_step; /* NAN while unknown */
+    bool is_ours;                     /* srpcore wrote the file */
+    size_t number_line[NUMBER_COUNT]; /* of the keys above, 0 while not given */
+    double mass, az_step, el_step;    /* NAN while unknown */
     srp_sunlight light;
     srp_table *table; /* NULL until the first row */
     double scale;     /* area per acceleration */
     size_t rows;
 } reader;
 
-/* Takes a number above 0 from `value` if the key is `name`. */
+/* Takes a number above 0, which is given once and before the rows that it decides. */
 static srp_status take_number(const reader *in, srp_token key, srp_token value, const char *name,
-                              double *out) {
+                              size_t *line, double *out) {
     double number;
-    if (!srp_token_is(key, name)) {
-        return SRP_OK;
+    srp_status status = srp_table_key_once(&in->text, key, line, in->error);
+    if (status == SRP_OK && in->table != NULL) {
+        status = srp_text_expected(&in->text, key, "it above the first row", in->error);
     }
-    srp_status status = srp_token_double(&in->text, value, name, &number, in->error);
+    if (status == SRP_OK) {
+        status = srp_token_double(&in->text, value, name, &number, in->error);
+    }
     if (status != SRP_OK) {
         return status;
     }
     if (!(number > 0.0)) {
         return srp_fail_at(in->error, SRP_BAD_DATA, in->text.name, value.line, value.column,
                            "%s is %g, expected more than 0", name, number);
+    }
+    if (!SRP_WITHIN(number, SRP_SCALE_MIN, SRP_SCALE_MAX)) {
+        return srp_fail_at(in->error, SRP_BAD_DATA, in->text.name, value.line, value.column,
+                           "%s is %g, expected %g to %g", name, number, SRP_SCALE_MIN,
+                           SRP_SCALE_MAX);
     }
     *out = number;
     return SRP_OK;
@@ -137,17 +150,24 @@ static srp_status take_remark(reader *in, srp_token line) {
         in->title = value;
         return SRP_OK;
     }
+    if (srp_token_is(key, KEY_SOFTWARE)) {
+        in->is_ours = srp_token_is(value, srp_table_writer);
+        return SRP_OK;
+    }
     const struct {
         const char *name;
         double *out;
-    } numbers[] = {{KEY_MASS, &in->mass},
-                   {KEY_FLUX, &in->light.flux},
-                   {KEY_AU, &in->light.au},
-                   {KEY_AZ_STEP, &in->az_step},
-                   {KEY_EL_STEP, &in->el_step}};
+    } numbers[NUMBER_COUNT] = {{KEY_MASS, &in->mass},
+                               {KEY_FLUX, &in->light.flux},
+                               {KEY_AU, &in->light.au},
+                               {KEY_AZ_STEP, &in->az_step},
+                               {KEY_EL_STEP, &in->el_step}};
     srp_status status = SRP_OK;
-    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0] && status == SRP_OK; ++k) {
-        status = take_number(in, key, value, numbers[k].name, numbers[k].out);
+    for (size_t k = 0; k < NUMBER_COUNT && status == SRP_OK; ++k) {
+        if (srp_token_is(key, numbers[k].name)) {
+            status =
+                take_number(in, key, value, numbers[k].name, &in->number_line[k], numbers[k].out);
+        }
     }
     return status;
 }
@@ -180,26 +200,21 @@ static srp_status begin_rows(reader *in) {
 
 static srp_status take_row(reader *in) {
     srp_table_row row;
-    srp_vec3 a = {0.0, 0.0, 0.0};
+    srp_vec3 f = {0.0, 0.0, 0.0};
     double norm;
-    const double scale[3] = {1.0, 1.0, 1.0};
+    const double scale[3] = {in->scale, in->scale, in->scale};
     srp_status status = srp_table_row_begin(&in->text, &row, in->error);
     if (status == SRP_OK) {
         status = srp_table_row_check(&in->text, in->table->grid, in->rows, &row, in->error);
     }
     if (status == SRP_OK) {
-        status = srp_table_row_vec3(&in->text, "a", scale, &a, in->error);
+        status = srp_table_row_vec3(&in->text, "a", scale, &f, in->error);
     }
     if (status == SRP_OK) {
         status = srp_text_double(&in->text, "|a|", &norm, NULL, in->error);
     }
     if (status == SRP_OK) {
         status = srp_text_end_of_line(&in->text, in->error);
-    }
-    srp_vec3 f = srp_vec3_scale(in->scale, a);
-    if (status == SRP_OK && !srp_vec3_is_finite(f)) {
-        status = srp_fail_at(in->error, SRP_BAD_DATA, in->text.name, row.az_token.line, 0,
-                             "the acceleration is that of no finite area");
     }
     if (status == SRP_OK) {
         in->table->nodes[in->rows].f = f;
@@ -228,6 +243,12 @@ static srp_status end_file(reader *in) {
         return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, in->text.line, 0,
                            "the file ends after %zu rows, expected %zu", in->rows,
                            srp_grid_node_count(in->table->grid));
+    }
+    if (in->is_ours) {
+        srp_status status = srp_table_end_of_text(&in->text, in->error);
+        if (status != SRP_OK) {
+            return status;
+        }
     }
     in->table->info.mass = in->mass;
     in->table->info.light = in->light;

@@ -96,7 +96,82 @@ static void weld_triangles(const srp_mesh *mesh, srp_topology *topology) {
     }
 }
 
-/* Sorted uses of all edges; an edge from a vertex to itself is none. */
+/* A triangle by its three places, in ascending order of the vertices that stand for them. */
+typedef struct triangle_key {
+    uint32_t v[3];
+    bool even; /* reached from the triangle's own order by a rotation: the winding */
+    uint32_t triangle;
+} triangle_key;
+
+static int compare_keys(const void *left, const void *right) {
+    const triangle_key *a = left, *b = right;
+    for (int k = 0; k < 3; k++) {
+        if (a->v[k] != b->v[k]) {
+            return a->v[k] < b->v[k] ? -1 : 1;
+        }
+    }
+    return a->triangle < b->triangle ? -1 : a->triangle > b->triangle;
+}
+
+static bool same_places(const triangle_key *a, const triangle_key *b) {
+    return a->v[0] == b->v[0] && a->v[1] == b->v[1] && a->v[2] == b->v[2];
+}
+
+static triangle_key key_of(srp_triangle triangle, uint32_t index) {
+    uint32_t a = triangle.v[0], b = triangle.v[1], c = triangle.v[2];
+    int first = a < b ? (a < c ? 0 : 2) : (b < c ? 1 : 2);
+    triangle_key key = {.triangle = index};
+    key.v[0] = triangle.v[first];
+    uint32_t second = triangle.v[(first + 1) % 3], third = triangle.v[(first + 2) % 3];
+    key.even = second < third;
+    key.v[1] = key.even ? second : third;
+    key.v[2] = key.even ? third : second;
+    return key;
+}
+
+/* Triangles at the same places: `count` keys in ascending order of the triangles. */
+static void compare_doubles(srp_topology *topology, const triangle_key *keys, size_t count) {
+    size_t seen[2] = {0, 0}; /* by winding */
+    for (size_t i = 0; i < count; ++i) {
+        topology->repeats[keys[i].triangle] = seen[keys[i].even]++ > 0;
+    }
+    for (int even = 0; even < 2; ++even) {
+        topology->duplicate += seen[even] > 1 ? seen[even] - 1 : 0;
+        topology->opposite += seen[!even] > 0 ? seen[even] : 0;
+    }
+}
+
+static bool find_doubles(srp_topology *topology) {
+    size_t count = 0;
+    triangle_key *keys = malloc((topology->triangle_count + 1) * sizeof *keys);
+    if (keys == NULL) {
+        return false;
+    }
+    for (size_t i = 0; i < topology->triangle_count; ++i) {
+        topology->repeats[i] = false;
+        if (!topology->degenerate[i]) {
+            keys[count++] = key_of(topology->welded[i], (uint32_t)i);
+        }
+    }
+    qsort(keys, count, sizeof *keys, compare_keys);
+    for (size_t begin = 0, end; begin < count; begin = end) {
+        end = begin + 1;
+        while (end < count && same_places(&keys[end], &keys[begin])) {
+            ++end;
+        }
+        compare_doubles(topology, keys + begin, end - begin);
+    }
+    free(keys);
+    return true;
+}
+
+/* Do the edges of triangle `i` count? */
+static bool has_edges(const srp_topology *topology, size_t i) {
+    const uint32_t *v = topology->welded[i].v;
+    return !topology->repeats[i] && v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
+}
+
+/* Sorted uses of all edges. */
 static edge_use *collect_uses(const srp_topology *topology, size_t *count) {
     edge_use *uses = malloc((3 * topology->triangle_count + 1) * sizeof *uses);
     if (uses == NULL) {
@@ -104,13 +179,11 @@ static edge_use *collect_uses(const srp_topology *topology, size_t *count) {
     }
     size_t n = 0;
     for (size_t i = 0; i < topology->triangle_count; ++i) {
-        for (uint8_t k = 0; k < 3; ++k) {
+        for (uint8_t k = 0; k < 3 && has_edges(topology, i); ++k) {
             uint32_t from = topology->welded[i].v[k], to = topology->welded[i].v[(k + 1) % 3];
-            if (from != to) {
-                bool ascending = from < to;
-                uses[n++] = (edge_use){ascending ? from : to, ascending ? to : from, (uint32_t)i, k,
-                                       ascending};
-            }
+            bool ascending = from < to;
+            uses[n++] =
+                (edge_use){ascending ? from : to, ascending ? to : from, (uint32_t)i, k, ascending};
         }
     }
     qsort(uses, n, sizeof *uses, compare_uses);
@@ -124,6 +197,30 @@ static size_t group_end(const edge_use *uses, size_t count, size_t begin) {
         ++end;
     }
     return end;
+}
+
+static bool is_pair(const edge_use *uses, size_t begin, size_t end) {
+    return end - begin == 2 && uses[begin].ascending != uses[begin + 1].ascending;
+}
+
+/* Takes out the edges of triangles without area that close no crack; the number of those left.
+ * `component` is scratch. */
+static size_t drop_loose(const srp_topology *topology, edge_use *uses, size_t count) {
+    uint32_t *loose = topology->component;
+    memset(loose, 0, topology->triangle_count * sizeof *loose);
+    for (size_t begin = 0, end; begin < count; begin = end) {
+        end = group_end(uses, count, begin);
+        for (size_t i = begin; i < end && !is_pair(uses, begin, end); ++i) {
+            loose[uses[i].triangle] = topology->degenerate[uses[i].triangle];
+        }
+    }
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (!loose[uses[i].triangle]) {
+            uses[kept++] = uses[i];
+        }
+    }
+    return kept;
 }
 
 static uint32_t find_root(uint32_t *parent, uint32_t i) {
@@ -155,7 +252,7 @@ static void join_triangles(srp_topology *topology, const edge_use *uses, size_t 
             ++topology->boundary_edges;
         } else if (end - begin > 2) {
             ++topology->nonmanifold_edges;
-        } else if (a[0].ascending == a[1].ascending) {
+        } else if (!is_pair(uses, begin, end)) {
             ++topology->inconsistent_edges;
         } else {
             topology->neighbour[a[0].triangle][a[0].side] = a[1].triangle;
@@ -165,20 +262,31 @@ static void join_triangles(srp_topology *topology, const edge_use *uses, size_t 
     }
 }
 
+/* What holds no triangle with an area is no component. */
 static bool number_components(srp_topology *topology, uint32_t *parent) {
+    uint32_t *component = topology->component;
+    memset(component, 0xff, topology->triangle_count * sizeof *component);
+    for (size_t i = 0; i < topology->triangle_count; ++i) {
+        if (!topology->degenerate[i] && !topology->repeats[i]) {
+            component[find_root(parent, (uint32_t)i)] = 0;
+        }
+    }
     for (size_t i = 0; i < topology->triangle_count; ++i) {
         uint32_t root = find_root(parent, (uint32_t)i);
-        topology->component[i] =
-            root == i ? (uint32_t)topology->component_count++ : topology->component[root];
+        if (root == i && component[i] != SRP_NO_TRIANGLE) {
+            component[i] = (uint32_t)topology->component_count++;
+        } else {
+            component[i] = component[root];
+        }
     }
     topology->components = calloc(topology->component_count + 1, sizeof *topology->components);
     if (topology->components == NULL) {
         return false;
     }
     for (size_t i = 0; i < topology->triangle_count; ++i) {
-        srp_component *component = &topology->components[topology->component[i]];
-        if (component->triangles++ == 0) {
-            component->first = (uint32_t)i;
+        if (component[i] != SRP_NO_TRIANGLE &&
+            topology->components[component[i]].triangles++ == 0) {
+            topology->components[component[i]].first = (uint32_t)i;
         }
     }
     return true;
@@ -197,11 +305,14 @@ static bool find_closed(srp_topology *topology, const edge_use *uses, size_t cou
     for (size_t begin = 0, end; begin < count; begin = end) {
         end = group_end(uses, count, begin);
         for (size_t i = begin; i < end; ++i) {
-            balance[topology->component[uses[i].triangle]] += uses[i].ascending ? 1 : -1;
+            uint32_t component = topology->component[uses[i].triangle];
+            if (component != SRP_NO_TRIANGLE) {
+                balance[component] += uses[i].ascending ? 1 : -1;
+            }
         }
         for (size_t i = begin; i < end; ++i) {
             uint32_t component = topology->component[uses[i].triangle];
-            if (balance[component] != 0) {
+            if (component != SRP_NO_TRIANGLE && balance[component] != 0) {
                 topology->components[component].closed = false;
                 balance[component] = 0;
             }
@@ -217,6 +328,9 @@ static bool find_closed(srp_topology *topology, const edge_use *uses, size_t cou
 static void measure_volumes(const srp_mesh *mesh, srp_topology *topology) {
     const srp_vec3 *vertices = srp_mesh_vertices(mesh);
     for (size_t i = 0; i < topology->triangle_count; ++i) {
+        if (topology->component[i] == SRP_NO_TRIANGLE) {
+            continue;
+        }
         srp_component *component = &topology->components[topology->component[i]];
         if (component->closed) {
             const uint32_t *v = topology->welded[i].v;
@@ -242,8 +356,9 @@ static bool allocate(srp_topology *topology) {
     topology->component = malloc(triangles * sizeof *topology->component);
     topology->neighbour = malloc(triangles * sizeof *topology->neighbour);
     topology->degenerate = malloc(triangles * sizeof *topology->degenerate);
+    topology->repeats = malloc(triangles * sizeof *topology->repeats);
     if (topology->weld == NULL || topology->welded == NULL || topology->component == NULL ||
-        topology->neighbour == NULL || topology->degenerate == NULL) {
+        topology->neighbour == NULL || topology->degenerate == NULL || topology->repeats == NULL) {
         return false;
     }
     memset(topology->neighbour, 0xff, triangles * sizeof *topology->neighbour);
@@ -262,6 +377,9 @@ srp_status srp_topology_create(const srp_mesh *mesh, srp_topology *out, srp_erro
         goto fail;
     }
     weld_triangles(mesh, &topology);
+    if (!find_doubles(&topology)) {
+        goto fail;
+    }
     uses = collect_uses(&topology, &use_count);
     if (uses == NULL) {
         goto fail;
@@ -269,6 +387,7 @@ srp_status srp_topology_create(const srp_mesh *mesh, srp_topology *out, srp_erro
     for (size_t i = 0; i < topology.triangle_count; ++i) {
         parent[i] = (uint32_t)i;
     }
+    use_count = drop_loose(&topology, uses, use_count);
     join_triangles(&topology, uses, use_count, parent);
     if (!number_components(&topology, parent) || !find_closed(&topology, uses, use_count)) {
         goto fail;
@@ -293,5 +412,6 @@ void srp_topology_clear(srp_topology *topology) {
     free(topology->components);
     free(topology->neighbour);
     free(topology->degenerate);
+    free(topology->repeats);
     memset(topology, 0, sizeof *topology);
 }

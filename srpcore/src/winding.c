@@ -101,7 +101,9 @@ srp_status srp_winding_open_negative(srp_scene *scene, const uint32_t *component
                                      srp_error *error) {
     size_t component_count = 0;
     for (size_t i = 0; i < triangle_count; ++i) {
-        component_count = component[i] >= component_count ? component[i] + 1 : component_count;
+        if (facet_of[i] != SRP_NO_NEIGHBOUR && component[i] >= component_count) {
+            component_count = component[i] + 1;
+        }
     }
     size_t *begin = calloc(component_count + 3, sizeof *begin);
     uint32_t *facets = malloc((triangle_count + 1) * sizeof *facets);

@@ -60,6 +60,11 @@ else
     skip 'no SPAD files in the shared data'
 fi
 
+# What is read can be written and read again.
+awk 'NF == 11 && $1 + 0 == $1 && !done { $3 = "-1e300"; done = 1 } { print }' a.spo > vast.spo
+expect 1 convert vast.spo vast.nc
+says "found '-1e300': Force(X) is -1e+300 in metres, expected at most 1e+100"
+
 # Refusals.
 expect 1 convert none.nc x.spo
 says 'none.nc'

@@ -23,6 +23,9 @@ same "$(value pressure_n_m2)" 4.5598211813e-06 1e-10
 same "$(value force_n 1)" "$(awk 'BEGIN { print -36 * 1367 / 299792458 }' OFMT=%.17g)" 1e-5
 same "$(value acceleration_m_s2 1)" -1.931218382668e-07 1e-9
 prints_not '"t_m3"' # a method without moments gives none
+prints_not '-0,'
+expect 0 force --method cannonball --cr 1.8 --area 20 --az 0 --el 0
+prints_not '-0.000'
 expect 0 force --method cannonball --cr 1.8 --area 20 --az 90 --el 0 --distance-au 2 --flux 1400 --json
 same "$(value f_m2 1)" 0
 same "$(value f_m2 2)" -36
@@ -105,6 +108,30 @@ check 'the tolerance is kept' awk -v e="$(value f_error_m2)" -v x="$(value f_m2 
 expect 0 "${ray[@]}" --tolerance 1e-12
 says 'warning: the tolerance was not reached'
 prints '"tolerance_missed": true'
+
+# At the ends of what options take, every number is still one.
+finite() { ! grep -iqE '[^a-z](inf|nan|null)' ../log/out || fail 'a result is not finite'; }
+for mass in 1e-30 1e30; do
+    for scale in "--unit 1e29" "--unit 1e-70"; do
+        for distance in 1e-30 1e30; do
+            # shellcheck disable=SC2086
+            expect 0 force "$MODELS/dish.obj" $scale --az 20 --el 35 --mass $mass \
+                --distance-au $distance --flux 1e30 --reference 1e30,-1e30,1e30
+            finite
+        done
+    done
+done
+expect 0 force --method cannonball --cr 1e30 --area 1e30 --az 20 --el 35 --mass 1e-30 --flux 1e30 --json
+finite
+
+# A triangle too large to be multiplied is refused, not dropped beside others.
+printf 'v 0 0 0\nv 1e160 0 0\nv 0 1e160 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 4 5\n' > vast.obj
+expect 1 force vast.obj --az 0 --el 90 --material ''=0,0
+says "vast.obj:2:3: x of the vertex is 1e+160 m, expected at most 1e+30 m: is its unit right?"
+expect 1 info vast.obj
+says 'vast.obj:2:3: '
+expect 1 info "$MODELS/cube.obj" --unit 1e100
+says 'is its unit right?'
 
 # Wrong input.
 expect 1 force "$MODELS/none.obj" --az 0 --el 0

@@ -16,7 +16,18 @@ grep -Eq '^surface +24 +100.0% +0.5 +0.1 +.*models/cube.mtl$' ../log/out || fail
 expect 0 info "$MODELS/cube.obj" "$MODELS/icosphere-80.obj"
 prints 'cube.obj: 8 vertices, 12 triangles'
 prints 'icosphere-80.obj: 42 vertices, 80 triangles'
-prints '50 vertices, 92 triangles'
+prints 'together       50 vertices, 92 triangles'
+expect 0 info "$MODELS/cube.obj"
+prints_not 'together'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\nf 1 2 3\n' > one.obj
+expect 0 info one.obj --material ''=0,0
+prints 'one.obj: 3 vertices, 3 triangles'
+prints '3 open edges: 1 of 1 component is not closed'
+prints '1 triangle has no area; methods leave it out'
+prints '1 triangle repeats another one with the same winding'
+printf '1\n1 0 0 1 0 0\n' > one.plates
+expect 0 info --plates one.plates
+prints '1 plate, 1 m^2'
 expect 0 info "$MODELS/cube.obj" --unit ft
 prints '0.6096 x 0.6096 x 0.6096 m'
 expect 0 info "$MODELS/cube.obj" --unit 2.5
@@ -25,6 +36,27 @@ expect 0 info "$MODELS/cube.obj" --material surface=0.25,0.125,one-sided
 grep -Eq '^surface .* 0.25 +0.125 +--material \(one-sided\)$' ../log/out || fail '--material wins'
 expect 0 info "$MODELS/cube.obj" --material surfaec=0,0
 prints "no face has the material 'surfaec' of --material; did you mean 'surface'?"
+
+# Whatever lies on whatever, shares add up to the whole.
+expect 0 info "$MODELS/cube.obj" "$MODELS/cube.obj"
+grep -Eq '^surface +24 +100.0% ' ../log/out || fail 'a cube twice is a cube'
+prints 'triangles repeat another one with the same winding'
+cat > sheet.obj <<'END'
+v 0 0 0
+v 1 0 0
+v 0 1 0
+usemtl cells
+f 1 2 3
+usemtl back
+f 3 2 1
+f 1 1 2
+END
+expect 0 info sheet.obj
+grep -Eq '^cells +0.5 +50.0% ' ../log/out || fail 'share of the cells'
+grep -Eq '^back +0.5 +50.0% ' ../log/out || fail 'share of the back'
+prints 'components     1, 1 of them closed'
+prints_not 'more than two triangles'
+prints 'no area'
 
 # A guess at the unit.
 expect 0 info "$MODELS/cube.obj" --unit 1000
@@ -54,7 +86,7 @@ f 1 8 8
 END
 expect 0 info bad.obj
 prints 'open edges'
-prints 'repeat another one with the same winding'
+prints '1 triangle repeats another one with the same winding'
 prints 'back to back with another one'
 prints 'faces are mixed'
 prints 'the MTL file absent.mtl does not exist'

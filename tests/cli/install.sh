@@ -18,4 +18,14 @@ if command -v ldd > /dev/null; then
     prints "$PWD/moved/"
     prints_not 'libgsl' # srp is Apache-2.0
 fi
+
+# Staged for a package: below DESTDIR, as if it were /usr.
+last="DESTDIR=stage cmake --install $BUILD --prefix /usr"
+DESTDIR=$PWD/stage cmake --install "$BUILD" --prefix /usr > ../log/out 2> ../log/err || fail 'cannot stage'
+SRP=$PWD/stage/usr/bin/srp
+expect 0 force "$MODELS/cube.obj" --az 0 --el 0
+check 'no man page' test -s stage/usr/share/man/man1/srp.1
+
+# The demo builds all that it would install.
+! grep -q -- '--target' "$ROOT/scripts/demo.sh" || fail 'the demo builds less than it can install'
 finish

@@ -55,6 +55,19 @@ else
     skip 'no /dev/full'
 fi
 
+# A file beyond the limit of the system is a failure like a full disk: nothing half-written stays.
+for ending in nc spo; do
+    last="ulimit -f 50; srp table -o lim.$ending"
+    (
+        ulimit -f 50
+        exec "$SRP" table "$MODELS/box-wing.obj" -o "lim.$ending" --step 3 > ../log/out 2> ../log/err
+    )
+    got=$?
+    [ "$got" -eq 3 ] || fail "exit status $got, expected 3"
+    says "lim.$ending: "
+    holds
+done
+
 # An old file stays as it was until the new one is whole; then it is replaced.
 echo old > a.spo
 expect 1 table none.obj -o a.spo

@@ -18,7 +18,7 @@ on_terminal() {
 }
 
 on_terminal 100
-grep -qE '^\[=* *\] +[0-9]+ %  [0-9]+ of [0-9]+ directions' seen || fail 'no bar was drawn'
+grep -qE '^\[=* *\] +[0-9]+ %  [0-9]+ of 91 nodes' seen || fail 'no bar was drawn'
 check 'the bar is too wide' awk 'length > 99 { exit 1 }' seen
 # The last thing drawn is cleared: a carriage return, then "erase the line", before the results.
 grep -qP '\r\x1b\[Kt\.spo' ../log/out || fail 'the bar is not cleared'

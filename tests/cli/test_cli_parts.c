@@ -6,6 +6,7 @@
 #include "progress.h"
 #include "srp_check.h"
 #include "suggest.h"
+#include "utf8.h"
 
 #include <string.h>
 
@@ -67,6 +68,28 @@ START_TEST(numbers_are_written_as_short_as_they_read_back) {
 }
 END_TEST
 
+START_TEST(bytes_that_are_no_text_are_found) {
+    static const struct {
+        const char *text, *mended;
+    } cases[] = {
+        {"", ""},
+        {"plain", "plain"},
+        {"\xc3\xa9 \xe2\x82\xac \xf0\x9f\x9b\xb0", "\xc3\xa9 \xe2\x82\xac \xf0\x9f\x9b\xb0"},
+        {"caf\xe9", "caf?"},
+        {"\xff\xfe.obj", "??.obj"},
+        {"\xc0\xaf \xed\xa0\x80", "?? ???"},
+        {"cut \xe2\x82", "cut ??"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char text[64];
+        snprintf(text, sizeof text, "%s", cases[i].text);
+        cli_utf8_mend(text);
+        ck_assert_str_eq(text, cases[i].mended);
+        ck_assert_uint_eq(cli_utf8_find_bad(text), strlen(text));
+    }
+    ck_assert_uint_eq(cli_utf8_find_bad("caf\xe9"), 3);
+}
+END_TEST
+
 static const char *nearest(const char *wanted, const char *a, const char *b) {
     cli_suggestion near = cli_suggestion_begin(wanted);
     cli_suggestion_offer(&near, a);
@@ -89,7 +112,7 @@ END_TEST
 
 START_TEST(command_lines_can_be_typed_again) {
     static char *const argv[] = {"table", "my model.obj", "--material", "it's=0,1",
-                                 "-o",    "a.nc",         "--rest",     "--restart",
+                                 "-o",    "a.nc",         "--restart",  "--restart",
                                  "",      "--",           "--restart"};
     char *line = cli_command_line_join((int)(sizeof argv / sizeof argv[0]), argv, "--restart");
     ck_assert_ptr_nonnull(line);
@@ -169,9 +192,8 @@ END_TEST
 START_TEST(progress_tells_the_time_left) {
     char line[512];
     cli_progress_format(line, sizeof line, 100, 10.0, 0, 25, 100);
-    ck_assert_str_eq(line,
-                     "[==========                              ]  25 %  25 of 100 directions, "
-                     "0:30 left");
+    ck_assert_str_eq(line, "[==========                              ]  25 %  25 of 100 nodes, "
+                           "0:30 left");
     /* What a resumed run found says nothing about speed: 25 in 10 s, 50 to go. */
     cli_progress_format(line, sizeof line, 100, 10.0, 25, 50, 100);
     ck_assert_ptr_nonnull(strstr(line, "0:20 left"));
@@ -189,6 +211,7 @@ int main(void) {
     tcase_add_test(tcase, lists_of_numbers_have_their_length);
     tcase_add_test(tcase, counts_stop_at_their_maximum);
     tcase_add_test(tcase, numbers_are_written_as_short_as_they_read_back);
+    tcase_add_test(tcase, bytes_that_are_no_text_are_found);
     tcase_add_test(tcase, suggestions_are_near);
     tcase_add_test(tcase, command_lines_can_be_typed_again);
     tcase_add_test(tcase, json_is_json);

@@ -27,7 +27,13 @@ wrong "unknown option '--pixle', did you mean '--pixel'?" force --pixle=3
 wrong "unknown option '--xyzzy'" force --xyzzy
 says_not 'did you mean'
 wrong "unknown option '-x'" force -x
-wrong "option '--m' is ambiguous" force --m 3
+# In full: what is short for one option in one command is another in the next.
+wrong "unknown option '--m'" force --m 3
+wrong "unknown option '--az', did you mean '--az-step'?" table "$cube" -o t.nc --az 3
+wrong "unknown option '--az', did you mean '--az-step'?" table "$cube" -o t.nc --az=3
+wrong "unknown option '--js', did you mean '--json'?" "${force[@]}" --js
+wrong "unknown option '--mas', did you mean '--mass'?" "${force[@]}" --mas
+wrong "unknown option '--jso', did you mean '--json'?" "${force[@]}" --jso=yes
 wrong '--json takes no value' force --json=yes
 wrong '--az needs a value: DEG' force --az
 wrong '-o needs a value: FILE' table -o
@@ -42,6 +48,14 @@ wrong 'expected a number above 0' "${force[@]}" --mass 0
 wrong 'expected a number above 0' "${force[@]}" --mass -1
 wrong 'expected a number above 0' "${force[@]}" --distance-au 0
 wrong 'expected a number above 0' "${force[@]}" --flux 0
+# Beyond all sense: the results would be infinite, or not a number.
+wrong 'expected a number above 0 (1e-30 to 1e30)' "${force[@]}" --mass 1e-320
+wrong 'expected a number above 0 (1e-30 to 1e30)' "${force[@]}" --distance-au 1e-200
+wrong 'expected a number above 0 (1e-30 to 1e30)' "${force[@]}" --flux 1e300
+wrong 'each up to 1e30' "${force[@]}" --reference 1e308,1e308,0
+wrong 'each up to 1e30' "${force[@]}" --method raycast --window -1e308,1e308,-1,1
+wrong 'expected a number not below 0 (up to 1e30)' force --method cannonball --cr 1e300 --area 1e300 \
+    --az 0 --el 0
 for text in 0 32769 1.5 -3 1e3 99999999999999999999; do
     wrong 'expected a whole number from 1 to 32768' "${force[@]}" --method raycast --grid "$text"
 done
@@ -112,6 +126,10 @@ wrong 'no output: -o FILE.nc' table "$cube"
 wrong 't.csv: unknown ending (formats of tables: .nc, .spo, .txt)' table "$cube" -o t.csv
 wrong 'unknown ending' table "$cube" -o nc
 wrong 't.nc is given twice' "${table[@]}" -o t.nc
+wrong './t.nc is given twice' "${table[@]}" -o ./t.nc
+wrong 't.nc is given twice' "${table[@]}" -o "$PWD/t.nc"
+wrong '--title: byte 4 is not UTF-8' "${table[@]}" --title $'caf\xe9'
+wrong '--title: byte 1 is not UTF-8' convert a.nc b.nc --title $'\xff'
 wrong 'needs the mass of the spacecraft: --mass KG' "${table[@]}" -o t.txt
 wrong '--step and --az-step exclude each other' "${table[@]}" --step 5 --az-step 5
 wrong '7' "${table[@]}" --step 7
@@ -130,6 +148,11 @@ wrong 'expected two files, IN and OUT, found 1' convert a.nc
 wrong 'expected two files, IN and OUT, found 3' convert a.nc b.nc c.nc
 wrong 'a.csv: unknown ending' convert a.csv b.nc
 wrong 'b.csv: unknown ending' convert a.nc b.csv
+
+# Operands without a name.
+wrong 'operand 1 is empty, expected the name of a file' force --az 30 --el 20 ''
+wrong 'operand 2 is empty, expected the name of a file' info "$cube" ''
+wrong 'operand 2 is empty' convert a.nc ''
 
 # Info.
 wrong 'no model given' info

@@ -182,6 +182,11 @@ static srp_status try_mesh_append(srp_error *error) {
     return status == SRP_OK || same ? status : SRP_MISMATCH;
 }
 
+static srp_status try_material_areas(srp_error *error) {
+    double area[1]; /* the box has one material */
+    return srp_mesh_material_areas(box, area, error);
+}
+
 static srp_status try_mesh_inspect(srp_error *error) {
     srp_mesh_report report;
     return srp_mesh_inspect(box, &report, error);
@@ -393,6 +398,7 @@ static const struct {
     {"parse_obj", try_parse_obj},
     {"mesh_append", try_mesh_append},
     {"mesh_inspect", try_mesh_inspect},
+    {"mesh_material_areas", try_material_areas},
     {"materials", try_materials},
     {"parse_mtl", try_parse_mtl},
     {"parse_plates", try_parse_plates},

@@ -33,6 +33,11 @@ START_TEST(create_refuses_what_is_wrong) {
     ck_assert_int_eq(srp_mesh_create(bad, 3, &ONE, 1, &zero, &name, 1, &mesh, &error),
                      SRP_BAD_ARGUMENT);
     ck_assert_str_eq(error.message, "vertex 1 is not finite");
+    bad[1].y = -1e31;
+    ck_assert_int_eq(srp_mesh_create(bad, 3, &ONE, 1, &zero, &name, 1, &mesh, &error),
+                     SRP_BAD_ARGUMENT);
+    ck_assert_str_eq(error.message,
+                     "vertex 1 has a coordinate of 1e+31 m, expected at most 1e+30 m");
     ck_assert_ptr_null(mesh);
 }
 END_TEST

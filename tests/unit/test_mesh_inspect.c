@@ -13,6 +13,11 @@ static srp_mesh_report inspect(const srp_mesh *mesh) {
     return report;
 }
 
+static void take_areas(const srp_mesh *mesh, double *area) {
+    srp_error error;
+    assert_ok(srp_mesh_material_areas(mesh, area, &error), error);
+}
+
 static srp_mesh *box(void) {
     return shape_box(srp_vec3_make(-1.25, 0.5, 2), srp_vec3_make(0.75, 3, 2.5), "foil");
 }
@@ -52,7 +57,7 @@ START_TEST(sound_box) {
     assert_vec3_close(r.box_min, srp_vec3_make(-1.25, 0.5, 2), 0.0, 0.0);
     assert_vec3_close(r.box_max, srp_vec3_make(0.75, 3, 2.5), 0.0, 0.0);
     double area;
-    srp_mesh_material_areas(mesh, &area);
+    take_areas(mesh, &area);
     assert_close(area, r.area, 1e-15, 0.0);
     srp_mesh_destroy(mesh);
 }
@@ -99,7 +104,7 @@ START_TEST(doubles_and_thin_shells) {
     srp_mesh_report r = inspect(mesh);
     ck_assert_uint_eq(r.opposite, 2);
     ck_assert_uint_eq(r.duplicate, 0);
-    assert_close(r.area, 3.0, 1e-15, 0.0);
+    assert_close(r.area, 6.0, 1e-15, 0.0); /* two sides */
     srp_mesh_destroy(mesh);
 
     const srp_triangle thrice[] = {{{0, 1, 2}}, {{4, 5, 3}}, {{2, 0, 1}}};
@@ -107,7 +112,8 @@ START_TEST(doubles_and_thin_shells) {
     r = inspect(mesh);
     ck_assert_uint_eq(r.duplicate, 2);
     ck_assert_uint_eq(r.opposite, 0);
-    ck_assert_uint_eq(r.nonmanifold_edges, 3);
+    ck_assert_uint_eq(r.boundary_edges, 3); /* those of one triangle */
+    ck_assert_uint_eq(r.nonmanifold_edges, 0);
     assert_close(r.area, 3.0, 1e-15, 0.0);
     srp_mesh_destroy(mesh);
 
@@ -116,6 +122,39 @@ START_TEST(doubles_and_thin_shells) {
     r = inspect(mesh);
     ck_assert_uint_eq(r.duplicate, 1);
     ck_assert_uint_eq(r.opposite, 3);
+    assert_close(r.area, 6.0, 1e-15, 0.0);
+    srp_mesh_destroy(mesh);
+}
+END_TEST
+
+/* One rule for the whole and its shares, whatever lies on whatever. */
+START_TEST(areas_of_materials_add_up_to_the_whole) {
+    /* The same box twice. */
+    srp_mesh *mesh = box();
+    shape_join(mesh, shape_box(srp_vec3_make(-1.25, 0.5, 2), srp_vec3_make(0.75, 3, 2.5), "cells"));
+    srp_mesh_report r = inspect(mesh);
+    double area[2];
+    take_areas(mesh, area);
+    ck_assert_uint_eq(r.triangles, 24);
+    assert_close(r.area, 2 * (2 * 2.5 + 2 * 0.5 + 2.5 * 0.5), 1e-15, 0.0);
+    ck_assert(area[0] == r.area && area[1] == 0.0);
+    ck_assert_uint_eq(r.closed_components, 1);
+    ck_assert_uint_eq(r.boundary_edges + r.nonmanifold_edges + r.inconsistent_edges, 0);
+    srp_mesh_destroy(mesh);
+
+    /* A sheet of two materials, back to back, a third on one of them. */
+    const srp_vec3 v[] = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}};
+    const srp_triangle up = {{0, 1, 2}}, down = {{1, 0, 2}};
+    mesh = shape_mesh(v, 3, &up, 1, "cells");
+    shape_join(mesh, shape_mesh(v, 3, &down, 1, "back"));
+    shape_join(mesh, shape_mesh(v, 3, &up, 1, "paint"));
+    r = inspect(mesh);
+    double share[3];
+    take_areas(mesh, share);
+    assert_close(r.area, 6.0, 1e-15, 0.0);
+    assert_close(share[0], 3.0, 1e-15, 0.0);
+    assert_close(share[1], 3.0, 1e-15, 0.0);
+    ck_assert(share[2] == 0.0);
     srp_mesh_destroy(mesh);
 }
 END_TEST
@@ -129,7 +168,57 @@ START_TEST(degenerate_triangles_are_counted_apart) {
     ck_assert_uint_eq(r.degenerate, 4);
     ck_assert_uint_eq(r.duplicate + r.opposite, 0);
     assert_close(r.area, 3.0, 1e-15, 0.0);
+    ck_assert_uint_eq(r.components, 1);
+    ck_assert_uint_eq(r.boundary_edges, 3);
+    ck_assert_uint_eq(r.nonmanifold_edges + r.inconsistent_edges, 0);
     srp_mesh_destroy(mesh);
+}
+END_TEST
+
+/* `f 1 1 2` beside a sound box: neither a component of its own nor a fault of its edges. */
+START_TEST(degenerate_triangles_are_no_part_of_the_topology) {
+    srp_mesh *whole = box();
+    srp_triangle t[16];
+    memcpy(t, srp_mesh_triangles(whole), 12 * sizeof *t);
+    const srp_triangle more[] = {{{0, 0, 1}}, {{1, 0, 1}}, {{7, 7, 7}}, {{0, 6, 0}}};
+    memcpy(t + 12, more, sizeof more);
+    srp_mesh *mesh = shape_mesh(srp_mesh_vertices(whole), 8, t, 16, "foil");
+    srp_mesh_report r = inspect(mesh), w = inspect(whole);
+    ck_assert_uint_eq(r.degenerate, 4);
+    ck_assert_uint_eq(r.components, 1);
+    ck_assert_uint_eq(r.closed_components, 1);
+    ck_assert_uint_eq(r.boundary_edges + r.nonmanifold_edges + r.inconsistent_edges, 0);
+    ck_assert(r.area == w.area && r.volume == w.volume);
+    srp_mesh_destroy(mesh);
+    srp_mesh_destroy(whole);
+}
+END_TEST
+
+/* An edge on one side, two on the other, and a triangle without area between them, as triangulators
+ * of CAD programs leave: the surface is closed. */
+START_TEST(triangles_without_area_may_close_cracks) {
+    srp_mesh *whole = box();
+    const srp_vec3 *v = srp_mesh_vertices(whole);
+    srp_vec3 corners[9];
+    memcpy(corners, v, 8 * sizeof *v);
+    srp_triangle t[14];
+    memcpy(t, srp_mesh_triangles(whole), 12 * sizeof *t);
+    /* The first triangle is cut in two at the middle of its first edge. */
+    uint32_t a = t[0].v[0], b = t[0].v[1], c = t[0].v[2];
+    corners[8] = srp_vec3_scale(0.5, srp_vec3_add(v[a], v[b]));
+    t[0] = (srp_triangle){{a, 8, c}};
+    t[12] = (srp_triangle){{8, b, c}};
+    t[13] = (srp_triangle){{a, b, 8}};
+    for (size_t count = 13; count <= 14; ++count) {
+        srp_mesh *mesh = shape_mesh(corners, 9, t, count, "foil");
+        srp_mesh_report r = inspect(mesh);
+        ck_assert_uint_eq(r.components, 1);
+        ck_assert_uint_eq(r.degenerate, count - 13);
+        ck_assert_uint_eq(r.closed_components, count - 13);
+        ck_assert_uint_eq(r.boundary_edges, count == 13 ? 3 : 0);
+        srp_mesh_destroy(mesh);
+    }
+    srp_mesh_destroy(whole);
 }
 END_TEST
 
@@ -143,7 +232,7 @@ START_TEST(components_are_joined_by_edges) {
     ck_assert_uint_eq(r.closed_components, 3);
     assert_close(r.volume, 2.5 + 6.0 + 0.125, 1e-14, 0.0);
     double area[2];
-    srp_mesh_material_areas(mesh, area);
+    take_areas(mesh, area);
     assert_close(area[1], 22.0, 1e-15, 0.0);
     assert_close(area[0] + area[1], r.area, 1e-15, 0.0);
     srp_mesh_destroy(mesh);
@@ -181,6 +270,9 @@ int main(void) {
     tcase_add_test(tcase, inside_out_box_is_inward);
     tcase_add_test(tcase, doubles_and_thin_shells);
     tcase_add_test(tcase, degenerate_triangles_are_counted_apart);
+    tcase_add_test(tcase, areas_of_materials_add_up_to_the_whole);
+    tcase_add_test(tcase, degenerate_triangles_are_no_part_of_the_topology);
+    tcase_add_test(tcase, triangles_without_area_may_close_cracks);
     tcase_add_test(tcase, components_are_joined_by_edges);
     tcase_add_test(tcase, unshared_vertices_are_one_surface);
     suite_add_tcase(suite, tcase);

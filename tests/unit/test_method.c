@@ -151,6 +151,8 @@ START_TEST(parameters_are_checked) {
     bad = good;
     bad.reference.y = NAN;
     refuse(&srp_method_exact, scene, &bad, SRP_BAD_ARGUMENT, "reference");
+    bad.reference.y = -1e31;
+    refuse(&srp_method_exact, scene, &bad, SRP_BAD_ARGUMENT, "reference point has a coordinate of");
     srp_scene_destroy(scene);
 }
 END_TEST

@@ -67,11 +67,11 @@ START_TEST(materials_have_optics_and_are_used) {
     size_t count = srp_mesh_material_count(model.mesh);
     ck_assert_uint_eq(srp_materials_count(model.materials), count);
     double area[32];
+    srp_error error;
     ck_assert_uint_le(count, sizeof area / sizeof area[0]);
-    srp_mesh_material_areas(model.mesh, area);
+    assert_ok(srp_mesh_material_areas(model.mesh, area, &error), error);
     for (size_t i = 0; i < count; ++i) {
         srp_optics optics;
-        srp_error error;
         ck_assert(
             srp_materials_find(model.materials, srp_mesh_material_name(model.mesh, i), &optics));
         assert_ok(srp_optics_check(optics, &error), error);

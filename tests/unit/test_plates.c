@@ -100,6 +100,8 @@ static const malformed BAD[] = {
               "f:2:2: the normal is 0 0 0, expected a direction"),
     MALFORMED("no area", "1\n1 0 0 0 0 0\n", SRP_BAD_DATA,
               "f:2:7: found '0', expected an area above 0 m^2"),
+    MALFORMED("area out of all range", "1\n1 0 0 1e300 0 0\n", SRP_BAD_DATA,
+              "f:2:7: found '1e300', expected an area of at most 1e60 m^2"),
     MALFORMED("negative area", "1\n1 0 0 -2.5 0 0\n", SRP_BAD_DATA,
               "f:2:7: found '-2.5', expected an area above 0 m^2"),
     MALFORMED("rho_s above 1", "1\n1 0 0 1 1.5 0\n", SRP_BAD_DATA,

@@ -186,9 +186,14 @@ START_TEST(what_cannot_be_made_is_refused) {
     const struct {
         double flux, au, mass;
         const char *words;
-    } cases[] = {{0, 1e11, 1, "solar flux 0"},   {NAN, 1e11, 1, "solar flux nan"},
-                 {1367, -1, 1, "at -1 m"},       {1367, 1e11, 0, "mass of 0 kg"},
-                 {1367, 1e11, -2, "mass of -2"}, {1367, 1e11, INFINITY, "mass of inf"}};
+    } cases[] = {{0, 1e11, 1, "solar flux 0"},
+                 {NAN, 1e11, 1, "solar flux nan"},
+                 {1367, -1, 1, "at -1 m"},
+                 {1367, 1e11, 0, "mass of 0 kg"},
+                 {1367, 1e11, -2, "mass of -2"},
+                 {1367, 1e11, INFINITY, "mass of inf"},
+                 {1367, 1e11, 1e-310, "mass of 1e-310"},
+                 {1e31, 1e11, 1, "solar flux 1e+31"}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         srp_sunlight light = {cases[k].flux, cases[k].au};
         assert_fails(srp_table_describe(table, "a", "b", light, cases[k].mass, &error),

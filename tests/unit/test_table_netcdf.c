@@ -319,6 +319,10 @@ START_TEST(changed_content_is_found) {
         {"rho_s", 0.25, "does not match its checksum", SRP_BAD_FORMAT},
         {"rho_s", 2.0, "rho_s 2", SRP_BAD_DATA},
         {"force", NAN, "force is nan at azimuth -180, elevation -90", SRP_BAD_DATA},
+        {"force", -1e300,
+         "force is -1e+300 at azimuth -180, elevation -90: expected a number of at "
+         "most 1e+100",
+         SRP_BAD_DATA},
         {"unresolved", INFINITY, "unresolved is inf", SRP_BAD_DATA},
         {"az", -170.0, "'az' does not run from -180 to 180", SRP_BAD_FORMAT},
         {"el", 7.0, "'el' does not run from -90 to 90", SRP_BAD_FORMAT},

@@ -115,8 +115,8 @@ START_TEST(whatever_gmat_takes_is_taken) {
         {" ------- ------- --- --- ---\n", ""},
         {"Force(X) Force(Y) Force(Z)", ""},
         {"16 17 -1.75e1\n", "16 17 -1.75e1"},
-        {"16 17 -1.75e1\n", "16\t17 -1.75e1 99 and more\n ---- ----\n\n"},
-        {" -180.00 -90.00 1 2 3", "\t-180.1 -90.1\t1 2.0 +3.0000000000000000e+00   4"},
+        {"16 17 -1.75e1\n", "16\t17 -1.75e1\n ---- ----\n\n"},
+        {" -180.00 -90.00 1 2 3", "\t-180.1 -90.1\t1 2.0 +3.0000000000000000e+00   "},
         {"  Step    : 180\nMotion", "Step:1.8e2\nMotion"},
         {"m^2 m^2 m^2", "m^2 m^2 m^2 stone stone"},
         {"Version", "\xef\xbb\xbfVersion"},
@@ -263,6 +263,97 @@ START_TEST(columns_are_named) {
 }
 END_TEST
 
+/* |f| would be infinite: what is read must be writable. */
+START_TEST(forces_out_of_all_range_are_refused) {
+    srp_table *table = NULL;
+    srp_error error;
+    char *text = changed("7 8 9", "7 -1e300 9");
+    ck_assert_int_eq(srp_table_parse_spo(text, strlen(text), "a.spo", &table, &error),
+                     SRP_BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(error.message, "found '-1e300': Force(Y) is -1e+300 in metres"));
+    ck_assert(error.line == 27 && error.column == 19);
+    free(text);
+    ck_assert_ptr_null(table);
+}
+END_TEST
+
+/* ... to the last column, which is made of products of two of them. */
+START_TEST(the_largest_forces_are_written_and_read) {
+    const char path[] = "scratch_large.spo";
+    table_fixture fixture = fixture_create(&noise_method, NULL);
+    srp_table *table = noise_table(&fixture, grid_of(90, 90), false), *back;
+    srp_error error;
+    for (size_t k = 0; k < srp_grid_node_count(table->grid); ++k) {
+        table->nodes[k].f = srp_vec3_make(1e100, -1e100, 0.3e100);
+        table->nodes[k].t = srp_vec3_make(-1e100, 0.7e100, 1e100);
+    }
+    assert_ok(srp_table_write(table, &srp_table_format_spo, path, &error), error);
+    size_t size;
+    char *text = read_bytes(path, &size);
+    ck_assert_ptr_null(strstr(text, "inf"));
+    ck_assert_ptr_null(strstr(text, "nan"));
+    free(text);
+    assert_ok(srp_table_read(&srp_table_format_spo, path, &back, &error), error);
+    ck_assert(back->nodes[4].f.y == -1e100 && back->nodes[4].t.z == 1e100);
+    srp_table_destroy(back);
+    srp_table_destroy(table);
+    fixture_destroy(fixture);
+    remove(path);
+}
+END_TEST
+
+/* GMAT ignores what stands behind the fifth column, but rows of different lengths are damaged. */
+START_TEST(all_rows_have_as_many_columns_as_the_first) {
+    char wide[2 * sizeof GOOD];
+    size_t size = 0;
+    for (const char *at = GOOD, *rows = strstr(GOOD, " -180.00 -90"); *at != '\0'; ++at) {
+        if (*at == '\n' && at > rows) {
+            size += (size_t)snprintf(wide + size, sizeof wide - size, " x -");
+        }
+        wide[size++] = *at;
+    }
+    wide[size] = '\0';
+    srp_table_destroy(parse(wide));
+    const char *cut = strstr(wide, "15 x -") + 4;
+    char *text = calloc(size + 1, 1);
+    ck_assert_ptr_nonnull(text);
+    memcpy(text, wide, (size_t)(cut - wide));
+    strcat(text, strchr(cut, '\n'));
+    assert_refused(text, strlen(text), 29, "found 6 columns, expected 7 as in the first row");
+    free(text);
+    text = changed("7 8 9", "7 8 9 1");
+    assert_refused(text, strlen(text), 27, "found 6 columns, expected 5 as in the first row");
+    free(text);
+}
+END_TEST
+
+START_TEST(what_decides_is_said_once) {
+    const struct {
+        const char *find, *replace;
+        size_t line;
+        const char *words;
+    } cases[] = {
+        {"Pressure           : 1", "Analysis Type : Area", 4,
+         "found 'Analysis Type' again, expected it once: it is given in line 3"},
+        {"Pressure           : 1", "Center of Mass : (0, 0, 0)", 5,
+         "found 'Center of Mass' again, expected it once: it is given in line 4"},
+        {"  Step    : 180\n", "  Step    : 180\n  Step : 90\n", 14,
+         "found 'Step' again, expected it once: it is given in line 13"},
+        {"  Name    : Azimuth\n", "  Name : Azimuth\n  Name : Azimuth\n", 10, "in line 9"},
+        {"  Maximum : 90\n", "  Maximum : 90\n  Maximum : 90\n", 19, "in line 18"},
+        {": 6\n", ": 6\nRecord count : 6\n", 22,
+         "found 'Record count' again, expected it once: it is given in line 21"},
+        {" ------- ------- --- --- ---", " degrees degrees mm^2 mm^2 mm^2", 24,
+         "found 'degree' again, expected it once: it is given in line 23"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        char *text = changed(cases[k].find, cases[k].replace);
+        assert_refused(text, strlen(text), cases[k].line, cases[k].words);
+        free(text);
+    }
+}
+END_TEST
+
 START_TEST(a_file_cut_anywhere_is_refused) {
     size_t size = sizeof GOOD - 1;
     for (size_t cut = 0; cut < size - 1; ++cut) {
@@ -345,6 +436,46 @@ START_TEST(our_files_keep_gmats_rules) {
             free(text);
             srp_table_destroy(table);
         }
+        fixture_destroy(fixture);
+    }
+    remove(path);
+}
+END_TEST
+
+/* Bytes from the end to the beginning of the third row from it. */
+static size_t last_rows(const char *text, size_t size) {
+    size_t begin = size;
+    for (int rows = 0; rows < 4;) {
+        rows += text[--begin] == '\n';
+    }
+    return size - begin - 1;
+}
+
+/* However few bytes are missing, be they digits of the last number. */
+START_TEST(our_files_cut_in_the_last_rows_are_refused) {
+    const char path[] = "scratch_cut.spo";
+    const srp_method *methods[] = {&noise_method, &srp_method_cannonball}; /* 11 and 5 columns */
+    for (size_t m = 0; m < 2; ++m) {
+        table_fixture fixture = fixture_create(methods[m], NULL);
+        srp_table *table = noise_table(&fixture, grid_of(90, 90), false), *again = NULL;
+        for (int pass = 0; pass < 2; ++pass) {
+            char *text = written(table, path);
+            size_t size = strlen(text), rows = last_rows(text, size);
+            ck_assert_uint_gt(rows, 3 * 80);
+            for (size_t cut = size - rows; cut < size; ++cut) {
+                srp_table *none = NULL;
+                srp_error error;
+                ck_assert_msg(srp_table_parse_spo(text, cut, "cut.spo", &none, &error) ==
+                                  SRP_BAD_FORMAT,
+                              "%zu bytes are missing", size - cut);
+            }
+            srp_table_destroy(table);
+            /* A second time as a table that was read, not computed. */
+            again = parse(text);
+            table = again;
+            free(text);
+        }
+        srp_table_destroy(again);
         fixture_destroy(fixture);
     }
     remove(path);
@@ -565,13 +696,18 @@ int main(void) {
     tcase_add_test(tcase, units_are_converted);
     tcase_add_test(tcase, malformed_files_are_refused_with_their_place);
     tcase_add_test(tcase, columns_are_named);
+    tcase_add_test(tcase, forces_out_of_all_range_are_refused);
+    tcase_add_test(tcase, all_rows_have_as_many_columns_as_the_first);
+    tcase_add_test(tcase, what_decides_is_said_once);
     tcase_add_test(tcase, a_file_cut_anywhere_is_refused);
     tcase_add_test(tcase, what_is_no_text_is_refused);
     tcase_add_test(tcase, no_single_byte_does_harm);
     suite_add_tcase(suite, tcase);
     tcase = tcase_create("writing");
     tcase_set_timeout(tcase, 60);
+    tcase_add_test(tcase, the_largest_forces_are_written_and_read);
     tcase_add_test(tcase, our_files_keep_gmats_rules);
+    tcase_add_test(tcase, our_files_cut_in_the_last_rows_are_refused);
     tcase_add_test(tcase, odd_titles_keep_gmats_rules);
     tcase_add_test(tcase, force_and_torque_come_back_to_the_bit);
     tcase_add_test(tcase, a_table_survives_the_way_through_netcdf_and_back);

@@ -135,7 +135,16 @@ START_TEST(malformed_files_are_refused_with_their_place) {
          "'x', expected a finite number: a(Y)"},
         {"3e-6 0 0 3e-6", "3e-6 inf 0 3e-6", 9, SRP_BAD_FORMAT,
          "'inf', expected a finite number: a(Y)"},
-        {"3e-6 0 0 3e-6", "1e308 0 0 1e308", 9, SRP_BAD_DATA, "no finite area"},
+        {"3e-6 0 0 3e-6", "3e-6 -1e300 0 1e300", 9, SRP_BAD_DATA,
+         "found '-1e300': a(Y) is -4.38614e+305 in metres, expected at most 1e+100"},
+        {"[kg]: 2", "[kg]: 2e-300", 3, SRP_BAD_DATA,
+         "mass [kg] is 2e-300, expected 1e-30 to 1e+30"},
+        {": 1367", ": 1e31", 4, SRP_BAD_DATA, "solar flux [W/m^2] is 1e+31, expected 1e-30 to"},
+        {"# made by hand", "# mass [kg]: 2", 3, SRP_BAD_FORMAT,
+         "found 'mass [kg]' again, expected it once: it is given in line 1"},
+        {"# made by hand", "# azimuth step [deg]: 90", 5, SRP_BAD_FORMAT, "it is given in line 1"},
+        {"   0 -90", "# astronomical unit [m]: 1.5e11\n 0 -90", 9, SRP_BAD_FORMAT,
+         "found 'astronomical unit [m]', expected it above the first row"},
         {" 180  90 0 -6e-6 0 6e-6\n", "", 12, SRP_BAD_FORMAT, "ends after 5 rows, expected 6"},
         {"6e-6\n", "6e-6\n0 0 1 1 1 1\n", 13, SRP_BAD_FORMAT, "found more than the 6 rows"},
     };
@@ -157,6 +166,37 @@ START_TEST(malformed_files_are_refused_with_their_place) {
                       error.line, cases[k].line);
         ck_assert_ptr_null(table);
     }
+    remove(PATH);
+}
+END_TEST
+
+/* However few bytes are missing, be they digits of the last number. */
+START_TEST(our_files_cut_in_the_last_rows_are_refused) {
+    table_fixture fixture = fixture_create(&noise_method, NULL);
+    srp_table *table = noise_table(&fixture, grid_of(90, 90), false);
+    srp_error error;
+    for (int pass = 0; pass < 2; ++pass) {
+        assert_ok(srp_table_write(table, &srp_table_format_txt, PATH, &error), error);
+        srp_table_destroy(table);
+        assert_ok(srp_table_read(&srp_table_format_txt, PATH, &table, &error), error);
+        size_t size, begin;
+        char *text = read_bytes(PATH, &size);
+        begin = size;
+        for (int rows = 0; rows < 4;) {
+            rows += text[--begin] == '\n';
+        }
+        ck_assert_uint_gt(size - begin, 3 * 100);
+        for (size_t cut = begin + 1; cut < size; ++cut) {
+            srp_table *none = NULL;
+            write_bytes(PATH, text, cut);
+            ck_assert_msg(srp_table_read(&srp_table_format_txt, PATH, &none, &error) ==
+                              SRP_BAD_FORMAT,
+                          "%zu bytes are missing", size - cut);
+        }
+        free(text);
+    }
+    srp_table_destroy(table);
+    fixture_destroy(fixture);
     remove(PATH);
 }
 END_TEST
@@ -197,6 +237,7 @@ int main(void) {
     tcase_add_test(tcase, rows_are_accelerations);
     tcase_add_test(tcase, titles_stay_on_their_line);
     tcase_add_test(tcase, malformed_files_are_refused_with_their_place);
+    tcase_add_test(tcase, our_files_cut_in_the_last_rows_are_refused);
     tcase_add_test(tcase, what_is_no_table_is_refused);
     tcase_add_test(tcase, a_full_disk_is_named);
     suite_add_tcase(suite, tcase);

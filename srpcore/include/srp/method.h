@@ -43,7 +43,7 @@ typedef struct srp_lattice_params {
 } srp_lattice_params;
 
 typedef struct srp_method_params {
-    srp_vec3 reference; /* point that moments are taken about [m], body frame */
+    srp_vec3 reference; /* point that moments are taken about [m], body frame, each up to 1e30 */
     int threads;        /* > 0; results do not depend on it */
     uint64_t seed;      /* of everything drawn at random; part of the result */
     srp_lattice_params lattice;

@@ -27,15 +27,16 @@ typedef enum srp_shape {
 
 /* All constructors copy what they are given.
  * SRP_NOT_FOUND (a material of the mesh without optics; the message says how to give it),
- * SRP_BAD_DATA (every triangle degenerate; a mesh so far from the origin, or so large, that
- * rounding hides its faces), SRP_NO_MEMORY. */
+ * SRP_BAD_DATA (every triangle degenerate; a mesh so far from the origin that rounding
+ * hides its faces), SRP_NO_MEMORY. */
 SRP_API SRP_CHECK srp_status srp_scene_from_mesh(const srp_mesh *mesh,
                                                  const srp_materials *materials, srp_scene **out,
                                                  srp_error *error);
-/* SRP_BAD_ARGUMENT (no plate), SRP_BAD_DATA, SRP_NO_MEMORY. */
+/* Areas up to 1e60 m^2. SRP_BAD_ARGUMENT (no plate), SRP_BAD_DATA, SRP_NO_MEMORY. */
 SRP_API SRP_CHECK srp_status srp_scene_from_plates(const srp_plate *plates, size_t count,
                                                    srp_scene **out, srp_error *error);
-/* cr: reflectivity coefficient [-] >= 0; area: cross-section [m^2] > 0. SRP_BAD_ARGUMENT. */
+/* cr: reflectivity coefficient [-], 0 to 1e30; area: cross-section [m^2] > 0, up to 1e60.
+ * SRP_BAD_ARGUMENT. */
 SRP_API SRP_CHECK srp_status srp_scene_from_sphere(double cr, double area, srp_scene **out,
                                                    srp_error *error);
 

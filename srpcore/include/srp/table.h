@@ -85,7 +85,8 @@ SRP_API SRP_CHECK srp_status srp_table_create(const srp_prepared *prepared, srp_
                                               bool with_basis, srp_table **out, srp_error *error);
 SRP_API void srp_table_destroy(srp_table *table);
 
-/* Set after creation, copied. SRP_BAD_ARGUMENT, SRP_NO_MEMORY. */
+/* Set after creation, copied. Flux, AU and mass from 1e-30 to 1e30; the mass may be NAN (not
+ * given). SRP_BAD_ARGUMENT, SRP_NO_MEMORY. */
 SRP_API SRP_CHECK srp_status srp_table_describe(srp_table *table, const char *title,
                                                 const char *command_line, srp_sunlight light,
                                                 double mass, srp_error *error);
@@ -201,7 +202,8 @@ SRP_API const srp_table_format *srp_table_format_of(const char *path);
  */
 SRP_API SRP_CHECK srp_status srp_table_write(const srp_table *table, const srp_table_format *format,
                                              const char *path, srp_error *error);
-/* SRP_NOT_FOUND, SRP_IO, SRP_BAD_FORMAT, SRP_BAD_DATA, SRP_NO_MEMORY. A sign that is wrong is not
+/* SRP_NOT_FOUND, SRP_IO, SRP_BAD_FORMAT, SRP_BAD_DATA (a force or moment beyond 1e100 in SI, among
+ * others), SRP_NO_MEMORY. A sign that is wrong is not
  * an error here: ask srp_table_pull_share(). */
 SRP_API SRP_CHECK srp_status srp_table_read(const srp_table_format *format, const char *path,
                                             srp_table **out, srp_error *error);
