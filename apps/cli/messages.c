@@ -58,6 +58,7 @@ int cli_input_error(const srp_error *error) {
     case SRP_UNSUPPORTED:
         return CLI_BAD_USAGE;
     case SRP_NO_MEMORY:
+    case SRP_NO_DEVICE:
         return CLI_MACHINE_FAILED;
     default:
         return CLI_BAD_INPUT; /* a file that cannot be read is wrong input, too */

@@ -64,6 +64,9 @@ void srp_basis_add_force(const srp_scene *scene, const srp_basis *basis, srp_vec
                          srp_vec3 *t);
 /* The lit cross-section that the sums stand for [m^2]. */
 double srp_basis_lit_area(const srp_scene *scene, const srp_basis *basis);
+/* Sets areas, and adds to f and t, which hold what a method gives beyond direct light. */
+void srp_basis_finish(const srp_scene *scene, const srp_basis *basis, srp_vec3 s,
+                      srp_response *out);
 
 /*
  * Adds the lit part of a flat facet to the sums of its material.

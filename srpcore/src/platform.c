@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#define _GNU_SOURCE /* sched_getaffinity, strerror_r, newlocale, madvise */
+#define _GNU_SOURCE /* sched_getaffinity, strerror_r, newlocale, madvise, RTLD_NODELETE */
 
 #include "platform.h"
 
 #include "error.h"
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <locale.h>
@@ -37,6 +38,36 @@ void *srp_platform_allocate_table(size_t size) {
         (void)madvise(memory, whole, MADV_HUGEPAGE); /* a wish */
     }
     return memory;
+}
+
+srp_platform_library *srp_platform_library_open(const char *const *names, char *reason,
+                                                size_t size) {
+    void *library = NULL;
+    for (size_t i = 0; names[i] != NULL && library == NULL; ++i) {
+        library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    }
+    if (library == NULL) {
+        const char *said = dlerror();
+        (void)snprintf(reason, size, "%s", said != NULL ? said : "not found");
+    }
+    return library;
+}
+
+void srp_platform_library_close(srp_platform_library *library) {
+    if (library != NULL) {
+        (void)dlclose(library);
+    }
+}
+
+srp_platform_function srp_platform_library_function(srp_platform_library *library,
+                                                    const char *name) {
+    /* POSIX lets dlsym() tell of functions as of data; ISO C knows no such cast. */
+    void *symbol = dlsym(library, name);
+    srp_platform_function function = NULL;
+    if (symbol != NULL) {
+        memcpy(&function, &symbol, sizeof function);
+    }
+    return function;
 }
 
 srp_c_locale srp_platform_c_locale_enter(void) {

@@ -53,6 +53,21 @@ void srp_platform_draft_abandon(srp_platform_draft *draft);
 srp_status srp_platform_write_file(const char *path, const char *bytes, size_t size,
                                    srp_error *error);
 
+/*
+ * A shared library of the system, looked for at run time: the first of `names` (ends with NULL) that
+ * is there. It stays mapped when it is closed: libraries that start threads of their own do not bear
+ * to be taken away. NULL: none is there; *reason (size bytes) says what the loader said of the last.
+ */
+typedef struct srp_platform_library srp_platform_library;
+srp_platform_library *srp_platform_library_open(const char *const *names, char *reason,
+                                                size_t size);
+/* May be NULL. */
+void srp_platform_library_close(srp_platform_library *library);
+/* A function of it, for a cast to its type; NULL: it has none of this name. */
+typedef void (*srp_platform_function)(void);
+srp_platform_function srp_platform_library_function(srp_platform_library *library,
+                                                    const char *name);
+
 /* Sets an SRP_IO (or SRP_NOT_FOUND, for ENOENT) error on `path` in the words of errno: "cannot
  * WHAT: No space left on device". */
 srp_status srp_platform_fail_errno(srp_error *error, const char *path, const char *what);

@@ -68,8 +68,8 @@ double srp_basis_lit_area(const srp_scene *scene, const srp_basis *basis) {
     return area;
 }
 
-/* f, t and areas from the sums; f and t hold what the kernel gave beyond them. */
-static void finish(const srp_scene *scene, const srp_basis *basis, srp_vec3 s, srp_response *out) {
+void srp_basis_finish(const srp_scene *scene, const srp_basis *basis, srp_vec3 s,
+                      srp_response *out) {
     srp_basis_add_force(scene, basis, s, &out->f, &out->t);
     out->lit_area = srp_basis_lit_area(scene, basis);
     out->back_area = basis[scene->material_count].a;
@@ -83,7 +83,7 @@ static srp_status respond_one(const srp_prepared *prepared, const srp_direction_
     memset(response, 0, sizeof *response);
     srp_status status = kernel->respond(prepared, scratch, s, response);
     if (status == SRP_OK) {
-        finish(prepared->scene, scratch->basis, s, response);
+        srp_basis_finish(prepared->scene, scratch->basis, s, response);
         if (basis != NULL) {
             memcpy(basis, scratch->basis, row * sizeof *basis);
         }

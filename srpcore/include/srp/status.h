@@ -26,7 +26,8 @@ SRP_BEGIN_DECLS
     X(SRP_UNSUPPORTED, 6, "the method or format does not offer what was asked for")                \
     X(SRP_CANCELLED, 7, "cancelled by the caller")                                                 \
     X(SRP_NO_MEMORY, 8, "out of memory")                                                           \
-    X(SRP_IO, 9, "the system could not read or write a file")
+    X(SRP_IO, 9, "the system could not read or write a file")                                      \
+    X(SRP_NO_DEVICE, 10, "the machine lacks the device that was asked for, or it does not work")
 
 #define SRP_STATUS_ENUM(name, value, text) name = value,
 typedef enum srp_status { SRP_STATUS_LIST(SRP_STATUS_ENUM) } srp_status;
