@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "canvas.h"
+
+#include "error.h"
+#include "program.h"
+
+#include <string.h>
+
+static srp_status create_program(srp_gl_canvas *canvas, srp_error *error) {
+    static const srp_gl_stage STAGES[] = {{GL_VERTEX_SHADER, &srp_gl_ids_vert},
+                                          {GL_FRAGMENT_SHADER, &srp_gl_ids_frag}};
+    static const char *const NAMES[3] = {"along_x", "along_y", "along_z"};
+    const srp_gl_functions *gl = &canvas->context->gl;
+    srp_status status = srp_gl_program_create(canvas->context, "#version 330 core\n", STAGES, 2,
+                                              &canvas->program, error);
+    if (status == SRP_OK) {
+        for (int k = 0; k < 3; ++k) {
+            canvas->along[k] = gl->GetUniformLocation(canvas->program, NAMES[k]);
+        }
+        canvas->first = gl->GetUniformLocation(canvas->program, "first");
+    }
+    return status;
+}
+
+static GLuint attach(const srp_gl_canvas *canvas, GLenum format, GLenum place) {
+    const srp_gl_functions *gl = &canvas->context->gl;
+    GLuint buffer;
+    gl->GenRenderbuffers(1, &buffer);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, buffer);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, format, canvas->side, canvas->side);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
+    return buffer;
+}
+
+static srp_status create_target(srp_gl_canvas *canvas, srp_error *error) {
+    const srp_gl_functions *gl = &canvas->context->gl;
+    gl->GenFramebuffers(1, &canvas->framebuffer);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    canvas->colour = attach(canvas, GL_R32UI, GL_COLOR_ATTACHMENT0);
+    canvas->depth = attach(canvas, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
+    srp_status status = srp_gl_context_check(canvas->context, "a target for triangles", error);
+    if (status == SRP_OK && gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        status = srp_fail(error, SRP_NO_DEVICE, "%s (%s) does not draw whole numbers",
+                          canvas->context->device->name, canvas->context->renderer);
+    }
+    return status;
+}
+
+static void create_buffers(srp_gl_canvas *canvas, const float *vertices, size_t count) {
+    const srp_gl_functions *gl = &canvas->context->gl;
+    gl->GenVertexArrays(1, &canvas->array);
+    gl->BindVertexArray(canvas->array);
+    gl->GenBuffers(1, &canvas->vertices);
+    gl->BindBuffer(GL_ARRAY_BUFFER, canvas->vertices);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(3 * count * sizeof *vertices), vertices,
+                   GL_STATIC_DRAW);
+    gl->EnableVertexAttribArray(0);
+    gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
+    gl->GenBuffers(1, &canvas->indices);
+    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, canvas->indices);
+}
+
+srp_status srp_gl_canvas_create(const srp_gl_context *context, GLint side, const float *vertices,
+                                size_t count, srp_gl_canvas *out, srp_error *error) {
+    srp_gl_canvas canvas;
+    memset(&canvas, 0, sizeof canvas);
+    canvas.context = context;
+    canvas.side = side;
+    srp_status status = create_program(&canvas, error);
+    if (status == SRP_OK) {
+        status = create_target(&canvas, error);
+    }
+    if (status == SRP_OK) {
+        create_buffers(&canvas, vertices, count);
+        status = srp_gl_context_check(context, "the vertices of the model", error);
+    }
+    if (status != SRP_OK) {
+        srp_gl_canvas_clear(&canvas);
+        return status;
+    }
+    *out = canvas;
+    return SRP_OK;
+}
+
+void srp_gl_canvas_clear(srp_gl_canvas *canvas) {
+    if (canvas->context != NULL) {
+        const srp_gl_functions *gl = &canvas->context->gl;
+        const GLuint buffers[2] = {canvas->vertices, canvas->indices};
+        const GLuint targets[2] = {canvas->colour, canvas->depth};
+        gl->DeleteProgram(canvas->program);
+        gl->DeleteVertexArrays(1, &canvas->array);
+        gl->DeleteBuffers(2, buffers);
+        gl->DeleteFramebuffers(1, &canvas->framebuffer);
+        gl->DeleteRenderbuffers(2, targets);
+        memset(canvas, 0, sizeof *canvas);
+    }
+}
+
+void srp_gl_canvas_begin(srp_gl_canvas *canvas, GLint width, GLint height) {
+    static const GLuint NOTHING[4] = {0, 0, 0, 0};
+    static const GLfloat FAR[1] = {1.0F};
+    const srp_gl_functions *gl = &canvas->context->gl;
+    canvas->width = width;
+    canvas->height = height;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    gl->BindVertexArray(canvas->array);
+    gl->UseProgram(canvas->program);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->Enable(GL_SCISSOR_TEST);
+    gl->DepthFunc(GL_LESS);
+    gl->Scissor(0, 0, width, height);
+    gl->ClearBufferuiv(GL_COLOR, 0, NOTHING);
+    gl->ClearBufferfv(GL_DEPTH, 0, FAR);
+}
+
+void srp_gl_canvas_send(srp_gl_canvas *canvas, const uint32_t *indices, size_t count) {
+    const srp_gl_functions *gl = &canvas->context->gl;
+    gl->BindVertexArray(canvas->array);
+    if (count > canvas->index_capacity) {
+        gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *indices), indices,
+                       GL_STREAM_DRAW);
+        canvas->index_capacity = count;
+    } else if (count > 0) {
+        gl->BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, (GLsizeiptr)(count * sizeof *indices),
+                          indices);
+    }
+}
+
+void srp_gl_canvas_draw(const srp_gl_canvas *canvas, const srp_gl_view *view, size_t begin,
+                        size_t count, uint32_t first) {
+    const srp_gl_functions *gl = &canvas->context->gl;
+    if (count == 0) {
+        return;
+    }
+    gl->Viewport(view->left, view->bottom, view->width, view->height);
+    gl->Scissor(view->left, view->bottom, view->width, view->height);
+    for (int k = 0; k < 3; ++k) {
+        gl->Uniform4fv(canvas->along[k], 1, view->along[k]);
+    }
+    gl->Uniform1ui(canvas->first, first);
+    gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * count), GL_UNSIGNED_INT,
+                     (const void *)(uintptr_t)(3 * begin * sizeof(uint32_t)));
+}
+
+srp_status srp_gl_canvas_read(const srp_gl_canvas *canvas, uint32_t *ids, srp_error *error) {
+    const srp_gl_functions *gl = &canvas->context->gl;
+    gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl->ReadPixels(0, 0, canvas->width, canvas->height, GL_RED_INTEGER, GL_UNSIGNED_INT, ids);
+    return srp_gl_context_check(canvas->context, "drawing triangles", error);
+}

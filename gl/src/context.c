@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "context.h"
+
+#include "canvas.h"
+#include "error.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* False and *missing: the name of the first function that is not there. */
+static bool load(srp_gl_context *context, const char **missing) {
+    const srp_gl_provider *provider = context->device->provider;
+    *missing = NULL;
+#define LOAD(type, name)                                                                           \
+    context->gl.name = (type)provider->find(context->binding, "gl" #name);                         \
+    *missing = context->gl.name == NULL && *missing == NULL ? "gl" #name : *missing;
+    SRP_GL_FUNCTIONS_33(LOAD)
+    if (context->computes) {
+        SRP_GL_FUNCTIONS_43(LOAD)
+    }
+#undef LOAD
+    return *missing == NULL;
+}
+
+static void copy_string(const srp_gl_context *context, GLenum which, char *out, size_t size) {
+    const GLubyte *text = context->gl.GetString(which);
+    (void)snprintf(out, size, "%s", text != NULL ? (const char *)text : "unknown");
+}
+
+/* Loads the functions and asks what the driver offers; the context is current. */
+static srp_status learn(srp_gl_context *context, srp_error *error) {
+    const char *missing;
+    if (!load(context, &missing)) {
+        return srp_fail(error, SRP_NO_DEVICE, "the OpenGL of %s lacks %s", context->device->name,
+                        missing);
+    }
+    copy_string(context, GL_RENDERER, context->renderer, sizeof context->renderer);
+    copy_string(context, GL_VERSION, context->version, sizeof context->version);
+    GLint texture, renderbuffer;
+    context->gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+    context->gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderbuffer);
+    context->side_max = texture < renderbuffer ? texture : renderbuffer;
+    context->gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &context->texels_max);
+    return srp_gl_context_check(context, "asking for its limits", error);
+}
+
+/* Two triangles over one another: drivers are known that draw nothing into targets of whole numbers
+ * and report no error (softpipe of Mesa 22.3). */
+static srp_status draw_two_triangles(srp_gl_context *context, srp_error *error) {
+    enum { SIDE = 8, HALF = SIDE / 2 };
+    /* The first covers most of the left half, the second the lower edge, in front of it. */
+    static const float CORNERS[6][3] = {{-1.0F, -3.0F, 0.0F}, {0.0F, -3.0F, 0.0F},
+                                        {0.0F, 5.0F, 0.0F},   {-1.0F, -1.0F, -0.5F},
+                                        {3.0F, -1.0F, -0.5F}, {-1.0F, 0.0F, -0.5F}};
+    static const uint32_t INDICES[6] = {0, 1, 2, 3, 4, 5};
+    srp_gl_canvas canvas;
+    srp_status status = srp_gl_canvas_create(context, SIDE, CORNERS[0], 6, &canvas, error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    srp_gl_view view = {
+        .along = {{1.0F, 0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F, 0.0F}},
+        .width = SIDE,
+        .height = SIDE};
+    uint32_t ids[SIDE * SIDE];
+    srp_gl_canvas_begin(&canvas, SIDE, SIDE);
+    srp_gl_canvas_send(&canvas, INDICES, 6);
+    srp_gl_canvas_draw(&canvas, &view, 0, 2, 1);
+    status = srp_gl_canvas_read(&canvas, ids, error);
+    srp_gl_canvas_clear(&canvas);
+    if (status != SRP_OK) {
+        return status;
+    }
+    /* Samples well inside: of the first alone, of the second alone, of both, of none. */
+    uint32_t first = ids[HALF * SIDE + 3], second = ids[6], both = ids[1];
+    uint32_t none = ids[(SIDE - 1) * SIDE + SIDE - 1];
+    if (first != 1 || second != 2 || both != 2 || none != 0) {
+        return srp_fail(
+            error, SRP_NO_DEVICE,
+            "%s (%s) draws two triangles as %u %u %u %u, expected 1 2 2 0: it cannot be "
+            "used",
+            context->device->name, context->renderer, first, second, both, none);
+    }
+    return SRP_OK;
+}
+
+static srp_status create_binding(srp_gl_context *context, srp_error *error) {
+    const srp_gl_device *device = context->device;
+    srp_status status = device->provider->create(device->index, 4, 3, &context->binding, error);
+    context->computes = status == SRP_OK;
+    if (status == SRP_NO_DEVICE) {
+        srp_error second;
+        status = device->provider->create(device->index, 3, 3, &context->binding, &second);
+        if (status != SRP_OK && error != NULL) {
+            *error = second;
+        }
+    }
+    return status;
+}
+
+srp_status srp_gl_context_create(const srp_gl_device *device, srp_gl_context **out,
+                                 srp_error *error) {
+    srp_gl_context *context = calloc(1, sizeof *context);
+    if (context == NULL) {
+        return srp_fail(error, SRP_NO_MEMORY, "no memory for a context of OpenGL");
+    }
+    context->device = device;
+    srp_status status = create_binding(context, error);
+    if (status == SRP_OK) {
+        status = srp_gl_context_enter(context, error);
+        if (status == SRP_OK) {
+            status = learn(context, error);
+            if (status == SRP_OK) {
+                status = draw_two_triangles(context, error);
+            }
+            srp_gl_context_leave(context);
+        }
+    }
+    if (status != SRP_OK) {
+        srp_gl_context_destroy(context);
+        return status;
+    }
+    *out = context;
+    return SRP_OK;
+}
+
+void srp_gl_context_destroy(srp_gl_context *context) {
+    if (context != NULL) {
+        if (context->binding != NULL) {
+            context->device->provider->destroy(context->binding);
+        }
+        free(context);
+    }
+}
+
+srp_status srp_gl_context_enter(srp_gl_context *context, srp_error *error) {
+    if (!context->device->provider->enter(context->binding)) {
+        return srp_fail(error, SRP_NO_DEVICE, "%s: the context cannot be made current",
+                        context->device->name);
+    }
+    return SRP_OK;
+}
+
+void srp_gl_context_leave(srp_gl_context *context) {
+    context->device->provider->leave(context->binding);
+}
+
+srp_status srp_gl_context_check(const srp_gl_context *context, const char *what, srp_error *error) {
+    GLenum code = context->gl.GetError();
+    if (code == GL_NO_ERROR) {
+        return SRP_OK;
+    }
+    if (code == GL_OUT_OF_MEMORY) {
+        return srp_fail(error, SRP_NO_MEMORY, "%s (%s) has no memory for %s", context->device->name,
+                        context->renderer, what);
+    }
+    return srp_fail(error, SRP_NO_DEVICE, "%s (%s) reports error 0x%04x while %s",
+                    context->device->name, context->renderer, (unsigned)code, what);
+}

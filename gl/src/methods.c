@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The tables of the methods, one for each device: what a table is called and where it runs is all
+ * that differs, and srp_method has no other place to say it.
+ */
+#include "methods.h"
+
+#include "error.h"
+#include "provider.h"
+
+#include <srp/gl.h>
+
+#include <stdio.h>
+#include <string.h>
+
+/* X(name in C, name, provider, index) */
+#define DEVICES(X)                                                                                 \
+    X(osmesa, "gl:osmesa", osmesa, SRP_GL_ANY_DEVICE)                                              \
+    X(egl, "gl:egl", egl, SRP_GL_ANY_DEVICE)                                                       \
+    X(egl_0, "gl:egl:0", egl, 0)                                                                   \
+    X(egl_1, "gl:egl:1", egl, 1)                                                                   \
+    X(egl_2, "gl:egl:2", egl, 2)                                                                   \
+    X(egl_3, "gl:egl:3", egl, 3)                                                                   \
+    X(egl_4, "gl:egl:4", egl, 4)                                                                   \
+    X(egl_5, "gl:egl:5", egl, 5)                                                                   \
+    X(egl_6, "gl:egl:6", egl, 6)                                                                   \
+    X(egl_7, "gl:egl:7", egl, 7)
+
+#define DEFINE(id, text, provider, index)                                                          \
+    static const srp_gl_device device_##id = {text, &srp_gl_##provider, index};                    \
+    static const srp_method raycast_##id;                                                          \
+    static srp_status prepare_raycast_##id(const srp_scene *scene,                                 \
+                                           const srp_method_params *params, srp_prepared **out,    \
+                                           srp_error *error) {                                     \
+        return srp_gl_raycast_prepare(&raycast_##id, &device_##id, scene, params, out, error);     \
+    }                                                                                              \
+    static const srp_method raycast_##id = {                                                       \
+        .name = "raycast",                                                                         \
+        .device = text,                                                                            \
+        .summary = "first-hit visibility sampled by a lattice of rays, drawn by OpenGL",           \
+        .shapes = SRP_SHAPE_MESH,                                                                  \
+        .capabilities = SRP_METHOD_BASIS | SRP_METHOD_LATTICE | SRP_METHOD_MOMENT,                 \
+        .prepare = prepare_raycast_##id,                                                           \
+        .respond = srp_gl_raycast_respond,                                                         \
+        .release = srp_gl_raycast_release,                                                         \
+    };
+DEVICES(DEFINE)
+
+#define LIST(id, text, provider, index) &raycast_##id,
+static const srp_method *const METHODS[] = {DEVICES(LIST)};
+
+#define LIST_DEVICE(id, text, provider, index) &device_##id,
+static const srp_gl_device *const DEVICE_LIST[] = {DEVICES(LIST_DEVICE)};
+
+const srp_method *const *srp_gl_method_list(size_t *count) {
+    *count = sizeof METHODS / sizeof METHODS[0];
+    return METHODS;
+}
+
+srp_status srp_gl_device_describe(const char *device, srp_gl_description *out, srp_error *error) {
+    for (size_t k = 0; k < sizeof DEVICE_LIST / sizeof DEVICE_LIST[0]; ++k) {
+        if (strcmp(DEVICE_LIST[k]->name, device) == 0) {
+            srp_gl_context *context = NULL;
+            srp_status status = srp_gl_context_create(DEVICE_LIST[k], &context, error);
+            if (status == SRP_OK) {
+                (void)snprintf(out->renderer, sizeof out->renderer, "%s", context->renderer);
+                (void)snprintf(out->version, sizeof out->version, "%s", context->version);
+                out->computes = context->computes;
+                srp_gl_context_destroy(context);
+            }
+            return status;
+        }
+    }
+    return srp_fail(error, SRP_NOT_FOUND, "no device '%.60s'", device);
+}

@@ -1,0 +1,571 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * First hits sampled by a lattice, drawn by OpenGL.
+ *
+ * The lattice is the processor's (lattice.h), a sample is the centre of a cell, and what follows
+ * from the counts is the same code (raycast_answer.h): only which facet a sample sees is found out
+ * by the GPU, with a depth buffer. Numbers of facets come back, not floats. The processor projects
+ * the mesh in double precision and leaves out what faces away or lies between samples; the GPU
+ * turns vertices in float.
+ *
+ * Several directions share a target when they are small, and large lattices are drawn in pieces.
+ */
+#include "canvas.h"
+#include "error.h"
+#include "methods.h"
+#include "pool.h"
+#include "raster_frame.h"
+#include "raycast_answer.h"
+#include "scene_internal.h"
+#include "variation.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    /* Samples along a side of the target: four lattices of 512 beside each other, with gaps. */
+    TARGET_SIDE = 2064,
+    /* Samples between pictures in one target: the silhouette may reach half a cell beyond them. */
+    GAP = 1,
+    DIRECTIONS_MAX = 64,            /* at a time */
+    FACETS_MAX = 1 << 21,           /* of all of them together */
+    PIECES_MAX = 4 * DIRECTIONS_MAX /* in one target */
+};
+
+/* A vertex is moved by up to half a step of the GPU's 1/256 of a cell, and by rounding to float: a
+ * facet that comes no nearer to a sample than this [cells] is not drawn. */
+static const double SNAP = 1.0 / 64.0;
+
+/* How much of the depth range faces turned away lie behind others at the same place. */
+static const double BACK_BIAS = 0x1p-20;
+
+typedef struct raycast {
+    srp_prepared head;
+    srp_gl_pool pool;
+    srp_raster_mesh mesh;
+    double *lever2;
+    float *vertices; /* (3 vertex_count) about the scene's centre, in units of its radius */
+} raycast;
+
+/* A direction in work. */
+typedef struct shot {
+    srp_raster_frame frame;
+    size_t turned; /* facets of the frame that are turned to the Sun: the first */
+    size_t begin;  /* of its triangles among those that were sent */
+    double far, near;
+    srp_raster_tally *tally;
+    srp_push *push;
+    size_t capacity; /* of both */
+    srp_variation variation;
+    srp_basis *basis;
+    size_t index; /* of the caller's direction */
+    unsigned refine;
+    bool done;
+} shot;
+
+/* Part of a direction's lattice, in the target. */
+typedef struct piece {
+    shot *of;
+    int32_t column, row; /* of the lattice */
+    GLint left, bottom, width, height;
+} piece;
+
+typedef struct raycast_worker {
+    srp_gl_worker head;
+    srp_gl_canvas canvas;
+    uint32_t *ids; /* (side^2) */
+    uint32_t *indices;
+    size_t index_capacity;
+    size_t shot_count;
+    shot *shots;
+    shot **open; /* (shot_count) those that need another round */
+    piece pieces[PIECES_MAX];
+    size_t piece_count;
+    GLint used_width, used_height; /* of the target */
+    GLint shelf_left, shelf_bottom, shelf_top;
+} raycast_worker;
+
+/* ---- workers ---- */
+
+static size_t shots_for(const srp_scene *scene) {
+    size_t count = FACETS_MAX / (scene->facet_count + 1);
+    return count < 1 ? 1 : count > DIRECTIONS_MAX ? DIRECTIONS_MAX : count;
+}
+
+static void clear_shot(shot *of) {
+    srp_raster_frame_clear(&of->frame);
+    srp_variation_clear(&of->variation);
+    free(of->tally);
+    free(of->push);
+    free(of->basis);
+}
+
+static void clear_worker(srp_gl_worker *worker) {
+    raycast_worker *own = (raycast_worker *)worker;
+    srp_gl_canvas_clear(&own->canvas);
+    for (size_t k = 0; own->shots != NULL && k < own->shot_count; ++k) {
+        clear_shot(&own->shots[k]);
+    }
+    free(own->shots);
+    free(own->open);
+    free(own->ids);
+    free(own->indices);
+}
+
+static bool fill_shots(const raycast *state, raycast_worker *own) {
+    const srp_scene *scene = state->head.scene;
+    own->shot_count = shots_for(scene);
+    own->shots = calloc(own->shot_count, sizeof *own->shots);
+    own->open = calloc(own->shot_count, sizeof *own->open);
+    if (own->shots == NULL || own->open == NULL) {
+        return false;
+    }
+    for (size_t k = 0; k < own->shot_count; ++k) {
+        shot *of = &own->shots[k];
+        of->basis = calloc(scene->material_count + 1, sizeof *of->basis);
+        if (of->basis == NULL || !srp_raster_frame_create(&of->frame, &state->mesh)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static srp_status fill_worker(const srp_prepared *prepared, srp_gl_worker *worker,
+                              srp_error *error) {
+    const raycast *state = (const raycast *)prepared;
+    raycast_worker *own = (raycast_worker *)worker;
+    GLint side = worker->context->side_max < TARGET_SIDE ? worker->context->side_max : TARGET_SIDE;
+    srp_status status = srp_gl_canvas_create(worker->context, side, state->vertices,
+                                             state->mesh.vertex_count, &own->canvas, error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    own->ids = malloc((size_t)side * (size_t)side * sizeof *own->ids);
+    if (own->ids == NULL || !fill_shots(state, own)) {
+        return srp_fail(error, SRP_NO_MEMORY, "no memory for the %s method",
+                        prepared->method->name);
+    }
+    return SRP_OK;
+}
+
+static const srp_gl_worker_kind WORKER = {sizeof(raycast_worker), fill_worker, clear_worker};
+
+/* ---- what is drawn ---- */
+
+/* Whether [low, high], widened by SNAP, holds one of the samples 0 .. count - 1. */
+static inline bool holds_sample(double low, double high, double count) {
+    low = low - SNAP > 0.0 ? low - SNAP : 0.0;
+    high = high + SNAP < count - 1.0 ? high + SNAP : count - 1.0;
+    return ceil(low) <= high;
+}
+
+static inline bool may_be_hit(const srp_raster_frame *frame, const uint32_t v[3]) {
+    const double *x = frame->x, *y = frame->y;
+    double ax = x[v[0]], bx = x[v[1]], cx = x[v[2]], ay = y[v[0]], by = y[v[1]], cy = y[v[2]];
+    double left = ax < bx ? ax : bx, right = ax < bx ? bx : ax;
+    double low = ay < by ? ay : by, high = ay < by ? by : ay;
+    return holds_sample(left < cx ? left : cx, right > cx ? right : cx, frame->lattice.columns) &&
+           holds_sample(low < cy ? low : cy, high > cy ? high : cy, frame->lattice.rows);
+}
+
+/* Lists facets that are drawn, those turned to the Sun first, in place of the rasteriser's own
+ * list, which relies on its exact edges. */
+static void list_facets(shot *of) {
+    srp_raster_frame *frame = &of->frame;
+    const srp_raster_mesh *mesh = frame->mesh;
+    size_t count = 0;
+    for (size_t k = 0; k < mesh->facet_count; ++k) {
+        if (frame->cosine[k] > 0.0 && may_be_hit(frame, mesh->v[k])) {
+            frame->facet[count++] = (uint32_t)k;
+        }
+    }
+    of->turned = count;
+    for (size_t k = 0; !mesh->all_closed && k < mesh->facet_count; ++k) {
+        if (frame->cosine[k] < 0.0 && mesh->open[k] && may_be_hit(frame, mesh->v[k])) {
+            frame->facet[count++] = (uint32_t)k;
+        }
+    }
+    frame->facet_count = count;
+}
+
+static bool reserve(shot *of) {
+    size_t count = of->frame.facet_count;
+    if (count > of->capacity) {
+        free(of->tally);
+        free(of->push);
+        of->capacity = 0;
+        of->tally = malloc(count * sizeof *of->tally);
+        of->push = malloc(count * sizeof *of->push);
+        if (of->tally == NULL || of->push == NULL) {
+            return false;
+        }
+        of->capacity = count;
+    }
+    return true;
+}
+
+/* Empties the counts of a direction, and finds out what light does to its facets. */
+static bool begin_count(shot *of) {
+    srp_raster_frame *frame = &of->frame;
+    if (!reserve(of) || !srp_variation_begin(&of->variation, frame->kind, &frame->lattice)) {
+        return false;
+    }
+    for (size_t n = 0; n < frame->facet_count; ++n) {
+        srp_raster_side side = srp_raster_frame_side(frame, frame->facet[n]);
+        of->push[n] = srp_push_make(srp_raster_side_push(&side, frame->lattice.view.s));
+        of->tally[n] = (srp_raster_tally){0, 0, 0};
+    }
+    return true;
+}
+
+/* Everything of a direction that the processor does before it is drawn. */
+static bool aim(const raycast *state, shot *of, srp_vec3 s) {
+    srp_raster_frame *frame = &of->frame;
+    srp_raycast_set_up_frame(&state->head, frame, s, of->refine);
+    list_facets(of);
+    of->far = INFINITY;
+    of->near = -INFINITY;
+    for (size_t i = 0; i < state->mesh.vertex_count; ++i) {
+        double h = frame->depth[i];
+        of->far = h < of->far ? h : of->far;
+        of->near = h > of->near ? h : of->near;
+    }
+    return begin_count(of);
+}
+
+static bool send_triangles(raycast_worker *own, size_t open_count) {
+    size_t count = 0;
+    for (size_t k = 0; k < open_count; ++k) {
+        own->open[k]->begin = count;
+        count += own->open[k]->frame.facet_count;
+    }
+    if (count > own->index_capacity) {
+        free(own->indices);
+        own->index_capacity = 0;
+        own->indices = malloc(3 * count * sizeof *own->indices);
+        if (own->indices == NULL) {
+            return false;
+        }
+        own->index_capacity = count;
+    }
+    for (size_t k = 0; k < open_count; ++k) {
+        const shot *of = own->open[k];
+        for (size_t n = 0; n < of->frame.facet_count; ++n) {
+            memcpy(&own->indices[3 * (of->begin + n)], of->frame.mesh->v[of->frame.facet[n]],
+                   3 * sizeof *own->indices);
+        }
+    }
+    srp_gl_canvas_send(&own->canvas, own->indices, 3 * count);
+    return true;
+}
+
+/* One row of a transform: out = scale (axis . p) + shift, for p in units of the model's radius. */
+static void set_row(float row[4], const srp_scene *scene, srp_vec3 axis, double scale,
+                    double shift) {
+    row[0] = (float)(scale * scene->radius * axis.x);
+    row[1] = (float)(scale * scene->radius * axis.y);
+    row[2] = (float)(scale * scene->radius * axis.z);
+    row[3] = (float)(scale * srp_vec3_dot(axis, scene->centre) + shift);
+}
+
+static srp_gl_view view_of(const srp_scene *scene, const piece *at) {
+    const srp_lattice *lattice = &at->of->frame.lattice;
+    srp_gl_view view = {
+        .left = at->left, .bottom = at->bottom, .width = at->width, .height = at->height};
+    /* A sample is the middle of a pixel: 0 lies half a pixel from the left edge, which is at -1. */
+    double per_u = 2.0 / (at->width * lattice->du), per_v = 2.0 / (at->height * lattice->dv);
+    set_row(view.along[0], scene, lattice->view.u, per_u,
+            -per_u * lattice->u0 + (1.0 - 2.0 * at->column) / at->width - 1.0);
+    set_row(view.along[1], scene, lattice->view.v, per_v,
+            -per_v * lattice->v0 + (1.0 - 2.0 * at->row) / at->height - 1.0);
+    /* Within the depth range with some room; a sheet that faces the Sun has no depth at all. */
+    double range = fmax(at->of->near - at->of->far, 1e-6 * scene->radius), room = 1.98;
+    double middle = 0.5 * (at->of->near + at->of->far);
+    set_row(view.along[2], scene, lattice->view.s, -room / range, room * middle / range);
+    return view;
+}
+
+static void draw_piece(const srp_scene *scene, const raycast_worker *own, const piece *at) {
+    const shot *of = at->of;
+    srp_gl_view view = view_of(scene, at);
+    srp_gl_canvas_draw(&own->canvas, &view, of->begin, of->turned, 1);
+    view.along[2][3] += (float)BACK_BIAS;
+    srp_gl_canvas_draw(&own->canvas, &view, of->begin + of->turned,
+                       of->frame.facet_count - of->turned, (uint32_t)of->turned + 1);
+}
+
+/* ---- counting ---- */
+
+static void count_row(shot *of, const uint32_t *ids, int32_t width, int32_t column, int32_t row) {
+    for (int32_t i = 0; i < width;) {
+        uint32_t id = ids[i];
+        int32_t end = i + 1;
+        while (end < width && ids[end] == id) {
+            ++end;
+        }
+        size_t n = (size_t)id - 1; /* 0, nothing, is beyond all */
+        if (n < of->frame.facet_count) {
+            srp_raster_tally *tally = &of->tally[n];
+            int64_t length = end - i, begin = column + i;
+            tally->n += length;
+            tally->i += length * (2 * begin + length - 1) / 2;
+            tally->j += length * row;
+            srp_variation_add(&of->variation, column + i, column + end, row, &of->push[n]);
+        }
+        i = end;
+    }
+}
+
+/* Counts all pieces of a direction. */
+static void count_shot(const raycast_worker *own, shot *of) {
+    for (size_t k = 0; k < own->piece_count; ++k) {
+        const piece *at = &own->pieces[k];
+        for (int32_t j = 0; at->of == of && j < at->height; ++j) {
+            size_t place = (size_t)(at->bottom + j) * (size_t)own->used_width + (size_t)at->left;
+            count_row(of, own->ids + place, at->width, at->column, at->row + j);
+        }
+    }
+}
+
+/* ---- the target ---- */
+
+static void empty_target(raycast_worker *own) {
+    own->piece_count = 0;
+    own->used_width = own->used_height = 0;
+    own->shelf_left = own->shelf_bottom = own->shelf_top = 0;
+}
+
+/* Draws what has been laid out, and counts it. */
+static srp_status flush(const raycast *state, raycast_worker *own, size_t open_count,
+                        srp_error *error) {
+    if (own->piece_count == 0) {
+        return SRP_OK;
+    }
+    srp_gl_canvas_begin(&own->canvas, own->used_width, own->used_height);
+    for (size_t k = 0; k < own->piece_count; ++k) {
+        draw_piece(state->head.scene, own, &own->pieces[k]);
+    }
+    srp_status status = srp_gl_canvas_read(&own->canvas, own->ids, error);
+    if (status == SRP_OK) {
+        int threads = state->head.params.threads;
+        (void)threads; /* without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+        for (size_t k = 0; k < open_count; ++k) {
+            count_shot(own, own->open[k]);
+        }
+    }
+    empty_target(own);
+    return status;
+}
+
+/* Finds room on the shelf that is being filled, or on the next one; false: the target is full. */
+static bool place(raycast_worker *own, piece *at) {
+    GLint side = own->canvas.side;
+    if (own->piece_count == PIECES_MAX) {
+        return false;
+    }
+    if (own->shelf_left + at->width > side) {
+        own->shelf_bottom = own->shelf_top + GAP;
+        own->shelf_left = 0;
+    }
+    if (own->shelf_bottom + at->height > side) {
+        return false;
+    }
+    at->left = own->shelf_left;
+    at->bottom = own->shelf_bottom;
+    own->shelf_left += at->width + GAP;
+    GLint right = at->left + at->width, top = at->bottom + at->height;
+    own->shelf_top = top > own->shelf_top ? top : own->shelf_top;
+    own->used_width = right > own->used_width ? right : own->used_width;
+    own->used_height = top > own->used_height ? top : own->used_height;
+    own->pieces[own->piece_count++] = *at;
+    return true;
+}
+
+/* Draws and counts all directions that are open. */
+static srp_status draw_all(const raycast *state, raycast_worker *own, size_t open_count,
+                           srp_error *error) {
+    int32_t side = own->canvas.side;
+    empty_target(own);
+    for (size_t k = 0; k < open_count; ++k) {
+        const srp_lattice *lattice = &own->open[k]->frame.lattice;
+        for (int32_t row = 0; row < lattice->rows; row += side) {
+            for (int32_t column = 0; column < lattice->columns; column += side) {
+                int32_t width = lattice->columns - column, height = lattice->rows - row;
+                piece at = {.of = own->open[k],
+                            .column = column,
+                            .row = row,
+                            .width = width < side ? width : side,
+                            .height = height < side ? height : side};
+                if (!place(own, &at)) {
+                    srp_status status = flush(state, own, open_count, error);
+                    if (status != SRP_OK) {
+                        return status;
+                    }
+                    (void)place(own, &at); /* an empty target has room for any piece */
+                }
+            }
+        }
+    }
+    return flush(state, own, open_count, error);
+}
+
+/* ---- directions ---- */
+
+/* Leaves those in own->open that need another round; returns how many. */
+static size_t answer(const raycast *state, raycast_worker *own, size_t open_count,
+                     srp_response *responses) {
+    int threads = state->head.params.threads;
+    (void)threads; /* without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
+    for (size_t k = 0; k < open_count; ++k) {
+        shot *of = own->open[k];
+        srp_raycast_count count = {&of->frame, of->tally, &of->variation};
+        of->done = srp_raycast_answer(&state->head, state->lever2, &count, of->basis,
+                                      &responses[of->index]);
+        of->refine += 1;
+    }
+    size_t left = 0;
+    for (size_t k = 0; k < open_count; ++k) {
+        if (!own->open[k]->done) {
+            own->open[left++] = own->open[k];
+        }
+    }
+    return left;
+}
+
+/* Draws the directions that are open once; *open_count is then of those that need it again. */
+static srp_status run_round(const raycast *state, raycast_worker *own, const srp_vec3 *s,
+                            srp_response *responses, size_t *open_count, srp_error *error) {
+    int failed = 0, threads = state->head.params.threads;
+    (void)threads; /* without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1) reduction(|| : failed)
+    for (size_t k = 0; k < *open_count; ++k) {
+        failed = failed || !aim(state, own->open[k], s[own->open[k]->index]);
+    }
+    if (failed || !send_triangles(own, *open_count)) {
+        return srp_fail(error, SRP_NO_MEMORY, "no memory for the %s method",
+                        state->head.method->name);
+    }
+    srp_status status = draw_all(state, own, *open_count, error);
+    if (status == SRP_OK) {
+        *open_count = answer(state, own, *open_count, responses);
+    }
+    return status;
+}
+
+static srp_status run_batch(const raycast *state, raycast_worker *own, size_t count,
+                            const srp_vec3 *s, srp_response *responses, srp_basis *basis,
+                            srp_error *error) {
+    const srp_scene *scene = state->head.scene;
+    size_t row = scene->material_count + 1, open_count = count;
+    for (size_t k = 0; k < count; ++k) {
+        own->open[k] = &own->shots[k];
+        own->shots[k].index = k;
+        own->shots[k].refine = 0;
+        memset(&responses[k], 0, sizeof responses[k]);
+    }
+    while (open_count > 0) {
+        srp_status status = run_round(state, own, s, responses, &open_count, error);
+        if (status != SRP_OK) {
+            return status;
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        srp_basis_finish(scene, own->shots[k].basis, s[k], &responses[k]);
+        if (basis != NULL) {
+            memcpy(basis + k * row, own->shots[k].basis, row * sizeof *basis);
+        }
+    }
+    return SRP_OK;
+}
+
+srp_status srp_gl_raycast_respond(const srp_prepared *prepared, size_t count,
+                                  const srp_vec3 *s_body, srp_response *responses, srp_basis *basis,
+                                  srp_error *error) {
+    raycast *state = (raycast *)prepared;
+    srp_gl_worker *worker = NULL;
+    srp_status status = srp_gl_pool_take(&state->pool, prepared, &worker, error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    raycast_worker *own = (raycast_worker *)worker;
+    size_t row = prepared->scene->material_count + 1;
+    for (size_t begin = 0; begin < count && status == SRP_OK; begin += own->shot_count) {
+        size_t left = count - begin;
+        status =
+            run_batch(state, own, left < own->shot_count ? left : own->shot_count, s_body + begin,
+                      responses + begin, basis != NULL ? basis + begin * row : NULL, error);
+    }
+    srp_gl_pool_give(&state->pool, worker);
+    return status;
+}
+
+/* ---- the method ---- */
+
+void srp_gl_raycast_release(srp_prepared *prepared) {
+    raycast *state = (raycast *)prepared;
+    srp_gl_pool_clear(&state->pool);
+    srp_raster_mesh_clear(&state->mesh);
+    free(state->lever2);
+    free(state->vertices);
+    free(state);
+}
+
+static float *shrink_vertices(const srp_scene *scene) {
+    float *out = malloc(3 * scene->vertex_count * sizeof *out);
+    for (size_t i = 0; out != NULL && i < scene->vertex_count; ++i) {
+        srp_vec3 p =
+            srp_vec3_scale(1.0 / scene->radius, srp_vec3_sub(scene->vertices[i], scene->centre));
+        out[3 * i] = (float)p.x;
+        out[3 * i + 1] = (float)p.y;
+        out[3 * i + 2] = (float)p.z;
+    }
+    return out;
+}
+
+/* The first context is made here: a machine without OpenGL is told before anything is computed. */
+static srp_status warm_up(raycast *state, srp_error *error) {
+    srp_gl_worker *worker = NULL;
+    srp_status status = srp_gl_pool_take(&state->pool, &state->head, &worker, error);
+    if (status == SRP_OK) {
+        srp_gl_pool_give(&state->pool, worker);
+    }
+    return status;
+}
+
+srp_status srp_gl_raycast_prepare(const srp_method *method, const srp_gl_device *device,
+                                  const srp_scene *scene, const srp_method_params *params,
+                                  srp_prepared **out, srp_error *error) {
+    srp_status status = srp_raycast_check_lattice(scene, params, error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    raycast *state = calloc(1, sizeof *state);
+    if (state == NULL) {
+        goto fail;
+    }
+    state->head.method = method;
+    state->head.scene = scene;
+    state->head.params = *params;
+    state->pool.device = device;
+    state->pool.kind = &WORKER;
+    state->lever2 = srp_raycast_measure_levers(scene, params->reference);
+    state->vertices = shrink_vertices(scene);
+    if (state->lever2 == NULL || state->vertices == NULL ||
+        !srp_raster_mesh_create(&state->mesh, scene)) {
+        srp_gl_raycast_release(&state->head);
+        goto fail;
+    }
+    status = warm_up(state, error);
+    if (status != SRP_OK) {
+        srp_gl_raycast_release(&state->head);
+        return status;
+    }
+    *out = &state->head;
+    return SRP_OK;
+fail:
+    return srp_fail(error, SRP_NO_MEMORY, "no memory for the raycast method on %zu facets",
+                    scene->facet_count);
+}
