@@ -2,8 +2,7 @@
 #include "completion.h"
 
 #include "command.h"
-
-#include <srp/method.h>
+#include "methods.h"
 
 #include <stdbool.h>
 
@@ -23,11 +22,10 @@ static void put_name(FILE *out, const cli_option *option) {
 }
 
 static void put_methods(FILE *out) {
-    size_t count;
-    const srp_method *const *methods = srp_method_list(&count);
+    const srp_method *method;
     fputs(") _srp_words '", out);
-    for (size_t i = 0; i < count; ++i) {
-        fprintf(out, "%s%s", i > 0 ? " " : "", methods[i]->name);
+    for (size_t i = 0; (method = cli_method_named_at(i)) != NULL; ++i) {
+        fprintf(out, "%s%s", i > 0 ? " " : "", method->name);
     }
     fputs("'; return ;;\n", out);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "help.h"
 
-#include <srp/method.h>
+#include "methods.h"
+
 #include <srp/table.h>
 
 #include <string.h>
@@ -95,11 +96,10 @@ static bool takes(const cli_command *command, const char *name) {
 }
 
 static void print_methods(FILE *out) {
-    size_t count;
-    const srp_method *const *methods = srp_method_list(&count);
+    const srp_method *method;
     fputs("\nMethods:\n", out);
-    for (size_t i = 0; i < count; ++i) {
-        print_named(out, methods[i]->name, methods[i]->summary);
+    for (size_t i = 0; (method = cli_method_named_at(i)) != NULL; ++i) {
+        print_named(out, method->name, method->summary);
     }
 }
 

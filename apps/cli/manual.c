@@ -3,8 +3,8 @@
 
 #include "command.h"
 #include "method_options.h"
+#include "methods.h"
 
-#include <srp/method.h>
 #include <srp/table.h>
 
 #include <stdbool.h>
@@ -131,12 +131,12 @@ static void put_item(FILE *out, const char *name, const char *text) {
 }
 
 static void put_lists(FILE *out) {
-    size_t count;
-    const srp_method *const *methods = srp_method_list(&count);
+    const srp_method *method;
     fputs(".Sh METHODS\n.Bl -tag -width cannonball\n", out);
-    for (size_t i = 0; i < count; ++i) {
-        put_item(out, methods[i]->name, methods[i]->summary);
+    for (size_t i = 0; (method = cli_method_named_at(i)) != NULL; ++i) {
+        put_item(out, method->name, method->summary);
     }
+    size_t count;
     const srp_table_format *const *formats = srp_table_format_list(&count);
     fputs(".El\n.Sh FILE FORMATS\nThe ending of a file chooses the format of a table.\n"
           ".Bl -tag -width Ds\n",

@@ -2,9 +2,11 @@
 #include "method_options.h"
 
 #include "messages.h"
+#include "methods.h"
 #include "numbers.h"
 #include "suggest.h"
 
+#include <ctype.h>
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -76,8 +78,8 @@ static const cli_option METHOD_OPTIONS[METHOD_OPTION_COUNT] = {
     [METHOD_DEVICE] = {.name = "device",
                        .value = "NAME",
                        .complete = CLI_COMPLETE_WORDS,
-                       .words = "cpu",
-                       .help = "Where to compute: cpu.",
+                       .words = cli_device_words,
+                       .help = cli_device_help,
                        .set = cli_set_text,
                        .offset = offsetof(cli_method_options, device)},
     [METHOD_GRID] = {.name = "grid",
@@ -234,13 +236,13 @@ enum { NAMES_SIZE = 256 };
 
 /* Names of the methods that use it, with commas. */
 static void name_users(use what, char *names) {
-    size_t count, used = 0;
-    const srp_method *const *methods = srp_method_list(&count);
+    size_t used = 0;
+    const srp_method *method;
     names[0] = '\0';
-    for (size_t i = 0; i < count && used < NAMES_SIZE; ++i) {
-        if (uses(methods[i], what)) {
+    for (size_t i = 0; (method = cli_method_named_at(i)) != NULL && used < NAMES_SIZE; ++i) {
+        if (uses(method, what)) {
             used += (size_t)snprintf(names + used, NAMES_SIZE - used, "%s%s", used > 0 ? ", " : "",
-                                     methods[i]->name);
+                                     method->name);
         }
     }
 }
@@ -279,24 +281,48 @@ static int check_shape(const cli_model_options *model, const cli_method_options 
 
 /* ---- choosing ---- */
 
+/* Devices that have a method of this name, with commas; those with a number are only an example of
+ * one without. */
+static void name_devices(const char *name, char *names) {
+    size_t used = 0;
+    const srp_method *method;
+    names[0] = '\0';
+    for (size_t i = 0; (method = cli_method_at(i)) != NULL && used < NAMES_SIZE; ++i) {
+        bool numbered = isdigit((unsigned char)method->device[strlen(method->device) - 1]) != 0;
+        if (strcmp(method->name, name) == 0 && !numbered) {
+            used += (size_t)snprintf(names + used, NAMES_SIZE - used, "%s%s", used > 0 ? ", " : "",
+                                     method->device);
+        }
+    }
+}
+
+static int refuse_device(const cli_method_options *options) {
+    if (cli_device_is_left_out(options->device)) {
+        return cli_usage_error("--device %s: this srp is built without OpenGL", options->device);
+    }
+    char names[NAMES_SIZE];
+    name_devices(options->name, names);
+    return cli_usage_error("method %s is not there for --device %s, only for %s", options->name,
+                           options->device, names);
+}
+
 static int find_method(const cli_method_options *options, const srp_method **method) {
-    size_t count;
-    const srp_method *const *methods = srp_method_list(&count);
+    const char *device = cli_device_of(options->device);
+    const srp_method *candidate;
     cli_suggestion near = cli_suggestion_begin(options->name);
     bool named = false;
-    for (size_t i = 0; i < count; ++i) {
-        if (strcmp(methods[i]->name, options->name) == 0) {
+    for (size_t i = 0; (candidate = cli_method_at(i)) != NULL; ++i) {
+        if (strcmp(candidate->name, options->name) == 0) {
             named = true;
-            if (strcmp(methods[i]->device, options->device) == 0) {
-                *method = methods[i];
+            if (strcmp(candidate->device, device) == 0) {
+                *method = candidate;
                 return CLI_DONE;
             }
         }
-        cli_suggestion_offer(&near, methods[i]->name);
+        cli_suggestion_offer(&near, candidate->name);
     }
     if (named) {
-        return cli_usage_error("method %s is not there for --device %s, only for cpu",
-                               options->name, options->device);
+        return refuse_device(options);
     }
     if (near.best != NULL) {
         return cli_usage_error("unknown method '%s', did you mean '%s'?", options->name, near.best);

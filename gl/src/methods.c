@@ -26,27 +26,36 @@
     X(egl_6, "gl:egl:6", egl, 6)                                                                   \
     X(egl_7, "gl:egl:7", egl, 7)
 
+/* A method on a device: function(s) of methods.h for what, and what it says of itself. */
+#define METHOD(id, text, what, about, can)                                                         \
+    static const srp_method what##_##id;                                                           \
+    static srp_status prepare_##what##_##id(const srp_scene *scene,                                \
+                                            const srp_method_params *params, srp_prepared **out,   \
+                                            srp_error *error) {                                    \
+        return srp_gl_##what##_prepare(&what##_##id, &device_##id, scene, params, out, error);     \
+    }                                                                                              \
+    static const srp_method what##_##id = {                                                        \
+        .name = #what,                                                                             \
+        .device = text,                                                                            \
+        .summary = about,                                                                          \
+        .shapes = SRP_SHAPE_MESH,                                                                  \
+        .capabilities = can,                                                                       \
+        .prepare = prepare_##what##_##id,                                                          \
+        .respond = srp_gl_##what##_respond,                                                        \
+        .release = srp_gl_##what##_release,                                                        \
+    };
+
+#define CAN_CAST (SRP_METHOD_BASIS | SRP_METHOD_LATTICE | SRP_METHOD_MOMENT)
+
 #define DEFINE(id, text, provider, index)                                                          \
     static const srp_gl_device device_##id = {text, &srp_gl_##provider, index};                    \
-    static const srp_method raycast_##id;                                                          \
-    static srp_status prepare_raycast_##id(const srp_scene *scene,                                 \
-                                           const srp_method_params *params, srp_prepared **out,    \
-                                           srp_error *error) {                                     \
-        return srp_gl_raycast_prepare(&raycast_##id, &device_##id, scene, params, out, error);     \
-    }                                                                                              \
-    static const srp_method raycast_##id = {                                                       \
-        .name = "raycast",                                                                         \
-        .device = text,                                                                            \
-        .summary = "first-hit visibility sampled by a lattice of rays, drawn by OpenGL",           \
-        .shapes = SRP_SHAPE_MESH,                                                                  \
-        .capabilities = SRP_METHOD_BASIS | SRP_METHOD_LATTICE | SRP_METHOD_MOMENT,                 \
-        .prepare = prepare_raycast_##id,                                                           \
-        .respond = srp_gl_raycast_respond,                                                         \
-        .release = srp_gl_raycast_release,                                                         \
-    };
+    METHOD(id, text, raycast,                                                                      \
+           "first-hit visibility sampled by a lattice of rays, drawn by OpenGL", CAN_CAST)         \
+    METHOD(id, text, raytrace, "first hit solved exactly, reflected light traced by OpenGL",       \
+           CAN_CAST | SRP_METHOD_BOUNCE)
 DEVICES(DEFINE)
 
-#define LIST(id, text, provider, index) &raycast_##id,
+#define LIST(id, text, provider, index) &raycast_##id, &raytrace_##id,
 static const srp_method *const METHODS[] = {DEVICES(LIST)};
 
 #define LIST_DEVICE(id, text, provider, index) &device_##id,

@@ -15,8 +15,7 @@ static void destroy_worker(const srp_gl_pool *pool, srp_gl_worker *worker) {
     free(worker);
 }
 
-static srp_status create_worker(srp_gl_pool *pool, const srp_prepared *prepared,
-                                srp_gl_worker **out, srp_error *error) {
+static srp_status create_worker(srp_gl_pool *pool, srp_gl_worker **out, srp_error *error) {
     srp_gl_context *context = NULL;
     srp_status status = srp_gl_context_create(pool->device, &context, error);
     if (status != SRP_OK) {
@@ -34,7 +33,7 @@ static srp_status create_worker(srp_gl_pool *pool, const srp_prepared *prepared,
         return srp_fail(error, SRP_NO_MEMORY, "no memory for a worker of OpenGL");
     }
     worker->context = context;
-    status = pool->kind->fill(prepared, worker, error);
+    status = pool->kind->fill(pool->prepared, worker, error);
     if (status != SRP_OK) {
         destroy_worker(pool, worker);
         return status;
@@ -43,8 +42,7 @@ static srp_status create_worker(srp_gl_pool *pool, const srp_prepared *prepared,
     return SRP_OK;
 }
 
-srp_status srp_gl_pool_take(srp_gl_pool *pool, const srp_prepared *prepared, srp_gl_worker **out,
-                            srp_error *error) {
+srp_status srp_gl_pool_take(srp_gl_pool *pool, srp_gl_worker **out, srp_error *error) {
     for (size_t i = 0; i < SRP_GL_POOL_SLOTS; ++i) {
         srp_gl_worker *worker = atomic_exchange(&pool->slot[i], NULL);
         if (worker != NULL) {
@@ -57,7 +55,7 @@ srp_status srp_gl_pool_take(srp_gl_pool *pool, const srp_prepared *prepared, srp
             return SRP_OK;
         }
     }
-    return create_worker(pool, prepared, out, error);
+    return create_worker(pool, out, error);
 }
 
 void srp_gl_pool_give(srp_gl_pool *pool, srp_gl_worker *worker) {
@@ -71,6 +69,15 @@ void srp_gl_pool_give(srp_gl_pool *pool, srp_gl_worker *worker) {
     if (srp_gl_context_enter(worker->context, NULL) == SRP_OK) {
         destroy_worker(pool, worker);
     }
+}
+
+srp_status srp_gl_pool_warm_up(srp_gl_pool *pool, srp_error *error) {
+    srp_gl_worker *worker = NULL;
+    srp_status status = srp_gl_pool_take(pool, &worker, error);
+    if (status == SRP_OK) {
+        srp_gl_pool_give(pool, worker);
+    }
+    return status;
 }
 
 void srp_gl_pool_clear(srp_gl_pool *pool) {

@@ -486,7 +486,7 @@ srp_status srp_gl_raycast_respond(const srp_prepared *prepared, size_t count,
                                   srp_error *error) {
     raycast *state = (raycast *)prepared;
     srp_gl_worker *worker = NULL;
-    srp_status status = srp_gl_pool_take(&state->pool, prepared, &worker, error);
+    srp_status status = srp_gl_pool_take(&state->pool, &worker, error);
     if (status != SRP_OK) {
         return status;
     }
@@ -525,16 +525,6 @@ static float *shrink_vertices(const srp_scene *scene) {
     return out;
 }
 
-/* The first context is made here: a machine without OpenGL is told before anything is computed. */
-static srp_status warm_up(raycast *state, srp_error *error) {
-    srp_gl_worker *worker = NULL;
-    srp_status status = srp_gl_pool_take(&state->pool, &state->head, &worker, error);
-    if (status == SRP_OK) {
-        srp_gl_pool_give(&state->pool, worker);
-    }
-    return status;
-}
-
 srp_status srp_gl_raycast_prepare(const srp_method *method, const srp_gl_device *device,
                                   const srp_scene *scene, const srp_method_params *params,
                                   srp_prepared **out, srp_error *error) {
@@ -551,6 +541,7 @@ srp_status srp_gl_raycast_prepare(const srp_method *method, const srp_gl_device 
     state->head.params = *params;
     state->pool.device = device;
     state->pool.kind = &WORKER;
+    state->pool.prepared = &state->head;
     state->lever2 = srp_raycast_measure_levers(scene, params->reference);
     state->vertices = shrink_vertices(scene);
     if (state->lever2 == NULL || state->vertices == NULL ||
@@ -558,7 +549,7 @@ srp_status srp_gl_raycast_prepare(const srp_method *method, const srp_gl_device 
         srp_gl_raycast_release(&state->head);
         goto fail;
     }
-    status = warm_up(state, error);
+    status = srp_gl_pool_warm_up(&state->pool, error);
     if (status != SRP_OK) {
         srp_gl_raycast_release(&state->head);
         return status;

@@ -45,23 +45,30 @@ static const uint64_t FIRST[2][3] = {
     {0xb2f8e8cd07f9f001u, 0x494eb4d3238ac001u, 0x91e10da5c79e7801u},
 };
 
-typedef enum coordinate { ACROSS, AROUND, CHOICE, COORDINATES } coordinate;
+static uint64_t dimension_of(uint32_t bounces, srp_bounce_coordinate which) {
+    return (uint64_t)bounces * SRP_BOUNCE_COORDINATES + (uint64_t)which;
+}
 
-static int group_of(int32_t i, int32_t j) {
-    return (j % SRP_BOUNCE_STEP) * SRP_BOUNCE_STEP + i % SRP_BOUNCE_STEP;
+uint64_t srp_bounce_point_base(uint64_t seed, int group, uint32_t bounces,
+                               srp_bounce_coordinate which) {
+    return srp_seed_mix(srp_seed_mix(seed, (uint64_t)group), dimension_of(bounces, which));
+}
+
+uint64_t srp_bounce_point_step(int k, uint32_t bounces, srp_bounce_coordinate which) {
+    return bounces == 0 && which != SRP_BOUNCE_CHOICE
+               ? FIRST[which][k]
+               : srp_seed_mix((uint64_t)k, dimension_of(bounces, which)) | 1u;
 }
 
 /* In [0, 1). */
 static double coordinate_of(const srp_bounce_wave *wave, const srp_bounce_path *path,
-                            uint32_t bounces, coordinate which) {
-    uint64_t dimension = (uint64_t)bounces * COORDINATES + (uint64_t)which;
-    uint64_t group = (uint64_t)group_of(path->i, path->j);
-    uint64_t at = srp_seed_mix(srp_seed_mix(wave->seed, group), dimension);
+                            uint32_t bounces, srp_bounce_coordinate which) {
+    int group = srp_bounce_group_of(path->i, path->j);
+    uint64_t at = srp_bounce_point_base(wave->seed, group, bounces, which);
     const uint64_t index[3] = {(uint64_t)(path->i / SRP_BOUNCE_STEP),
                                (uint64_t)(path->j / SRP_BOUNCE_STEP), path->ray};
-    for (uint64_t k = 0; k < 3; ++k) {
-        uint64_t step = bounces == 0 ? FIRST[which][k] : srp_seed_mix(k, dimension) | 1u;
-        at += index[k] * step;
+    for (int k = 0; k < 3; ++k) {
+        at += index[k] * srp_bounce_point_step(k, bounces, which);
     }
     return srp_seed_unit(at);
 }
@@ -108,8 +115,8 @@ static void add_ray(srp_bounce_wave *wave, const arrival *at, srp_vec3 direction
 static void add_scattered(srp_bounce_wave *wave, const arrival *at, double share, uint32_t ray) {
     srp_bounce_path path = *at->path;
     path.ray = ray;
-    double across = coordinate_of(wave, &path, at->bounces, ACROSS);
-    double around = coordinate_of(wave, &path, at->bounces, AROUND);
+    double across = coordinate_of(wave, &path, at->bounces, SRP_BOUNCE_ACROSS);
+    double around = coordinate_of(wave, &path, at->bounces, SRP_BOUNCE_AROUND);
     double weight = srp_guide_point(wave->world->guide, at->facet, at->back, &across, &around);
     add_ray(wave, at, srp_guide_direction(at->normal, across, around), share * weight,
             SRP_BOUNCE_DIFFUSE, ray);
@@ -137,7 +144,7 @@ static void split(srp_bounce_wave *wave, const arrival *at) {
 /* One of the things that it does, with the flux of all. */
 static void choose(srp_bounce_wave *wave, const arrival *at) {
     double share = at->optics.rho_s + at->optics.rho_d;
-    if (coordinate_of(wave, at->path, at->bounces, CHOICE) * share < at->optics.rho_s) {
+    if (coordinate_of(wave, at->path, at->bounces, SRP_BOUNCE_CHOICE) * share < at->optics.rho_s) {
         add_ray(wave, at, srp_bounce_mirrored(at->direction, at->normal), share, SRP_BOUNCE_DIFFUSE,
                 at->path->ray);
     } else {
@@ -236,7 +243,7 @@ static void land(srp_bounce_wave *wave, size_t n, uint32_t bounces) {
     at.direction = ray->direction;
     at.point = srp_vec3_add_scaled(ray->origin, hit->t, ray->direction);
     srp_vec3 push = srp_bounce_push(at.optics, at.normal, at.direction, path->flux);
-    srp_bounce_sum *sum = &wave->sums->group[group_of(path->i, path->j)][path->kind];
+    srp_bounce_sum *sum = &wave->sums->group[srp_bounce_group_of(path->i, path->j)][path->kind];
     srp_vec3 lever = srp_vec3_sub(at.point, wave->world->reference);
     sum->f = srp_vec3_add(sum->f, push);
     sum->t = srp_vec3_add(sum->t, srp_vec3_cross(lever, push));

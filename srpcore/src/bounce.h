@@ -121,6 +121,27 @@ static inline srp_vec3 srp_bounce_mirrored(srp_vec3 direction, srp_vec3 normal) 
     return srp_vec3_add_scaled(direction, -2.0 * srp_vec3_dot(direction, normal), normal);
 }
 
+/* Coordinates of a point that a path takes at a bounce: of a scattered direction, and of the choice
+ * between mirrored and scattered. */
+typedef enum srp_bounce_coordinate {
+    SRP_BOUNCE_ACROSS,
+    SRP_BOUNCE_AROUND,
+    SRP_BOUNCE_CHOICE,
+    SRP_BOUNCE_COORDINATES
+} srp_bounce_coordinate;
+
+/* Such a coordinate is base + (i / SRP_BOUNCE_STEP) step[0] + (j / SRP_BOUNCE_STEP) step[1] +
+ * ray step[2] in units of 2^-64, modulo 1; for devices that compute it by themselves. `bounces`:
+ * behind the path. */
+uint64_t srp_bounce_point_base(uint64_t seed, int group, uint32_t bounces,
+                               srp_bounce_coordinate which);
+uint64_t srp_bounce_point_step(int k, uint32_t bounces, srp_bounce_coordinate which);
+
+/* Of a sample. */
+static inline int srp_bounce_group_of(int32_t i, int32_t j) {
+    return (j % SRP_BOUNCE_STEP) * SRP_BOUNCE_STEP + i % SRP_BOUNCE_STEP;
+}
+
 typedef struct srp_bounce_path srp_bounce_path;
 
 /* Rays on their way, those of one bounce together. One per thread; a zeroed struct is a fresh one.

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { SIDE = 8, CELLS = SIDE * SIDE };
+enum { SIDE = SRP_GUIDE_SIDE, CELLS = SIDE * SIDE };
 
 /* Pilot rays per cell: at most, and so many as keep the whole near the budget, but one. */
 enum { PILOTS_MAX = 16, PILOT_BUDGET = 1 << 19 };
@@ -17,7 +17,7 @@ enum { PILOTS_MAX = 16, PILOT_BUDGET = 1 << 19 };
 /* Density that every cell has at least, relative to a uniform one. */
 static const double LEAST_DENSITY = 0.2;
 
-#define NO_MAP UINT32_MAX
+#define NO_MAP SRP_GUIDE_NONE
 
 /* Cumulated shares: of the rows of cells, and of the cells in each row. */
 typedef struct guide_map {
@@ -37,6 +37,20 @@ void srp_guide_destroy(srp_guide *guide) {
         free(guide->maps);
         free(guide);
     }
+}
+
+_Static_assert(sizeof(guide_map) == SRP_GUIDE_FLOATS * sizeof(float), "a map is its numbers");
+
+size_t srp_guide_count(const srp_guide *guide) {
+    return guide->map_count;
+}
+
+const float *srp_guide_map(const srp_guide *guide, size_t k) {
+    return guide->maps[k].row;
+}
+
+uint32_t srp_guide_index(const srp_guide *guide, uint32_t facet, bool back) {
+    return guide->index[facet][back ? 1 : 0];
 }
 
 /* Malley's method: points of the unit disc, lifted to the hemisphere. The frame about the normal is

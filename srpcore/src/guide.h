@@ -19,6 +19,7 @@
 #include <srp/vec3.h>
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 typedef struct srp_guide srp_guide;
@@ -33,6 +34,15 @@ void srp_guide_destroy(srp_guide *guide);
  * may be NULL: nothing moves, the weight is 1. */
 double srp_guide_point(const srp_guide *guide, uint32_t facet, bool back, double *across,
                        double *around);
+
+/* For devices that sample by themselves: `srp_guide_count` maps of SRP_GUIDE_FLOATS numbers each (9
+ * cumulated shares of rows, then 9 of the cells in each of 8 rows), and the map of each side, or
+ * SRP_GUIDE_NONE. */
+enum { SRP_GUIDE_SIDE = 8, SRP_GUIDE_FLOATS = (SRP_GUIDE_SIDE + 1) * (SRP_GUIDE_SIDE + 1) };
+#define SRP_GUIDE_NONE UINT32_MAX
+size_t srp_guide_count(const srp_guide *guide);
+const float *srp_guide_map(const srp_guide *guide, size_t k);
+uint32_t srp_guide_index(const srp_guide *guide, uint32_t facet, bool back);
 
 /* The direction of a point about a unit normal: uniform points give cosine-weighted directions. */
 srp_vec3 srp_guide_direction(srp_vec3 normal, double across, double around);

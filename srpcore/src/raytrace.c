@@ -34,8 +34,9 @@ typedef struct raytrace {
     srp_scratch_pool pool;
     srp_raster_mesh mesh;
     srp_bounce_world world;
-    bool reflects; /* some facet begins paths */
-    bool scatters; /* some facet begins diffuse paths that are followed */
+    bool reflects;              /* some facet begins paths */
+    bool scatters;              /* some facet begins diffuse paths that are followed */
+    srp_raytrace_tracer tracer; /* in place of our own lanes, when it has a function */
 } raytrace;
 
 /* What one thread needs for a strip. */
@@ -159,6 +160,13 @@ static void trace_strip(const raytrace_scratch *own, lane *with, srp_bounce_sums
 
 /* Traces all strips on `parts` lanes at once, and leaves the sums in the first. */
 static bool trace_strips(raytrace_scratch *own, int parts) {
+    const srp_raytrace_tracer *tracer = &own->state->tracer;
+    if (tracer->trace != NULL) {
+        srp_raytrace_beam beam = {&own->state->world, &own->frame, own->seed, own->row_begin,
+                                  own->row_end};
+        memset(&own->strips[0], 0, sizeof own->strips[0]);
+        return tracer->trace(tracer->user, &beam, &own->strips[0]) == SRP_OK;
+    }
     for (int k = 0; k < parts; ++k) {
         if (!srp_raster_canvas_begin(&own->lanes[k].canvas, &own->frame) ||
             !srp_bounce_wave_begin(&own->lanes[k].wave, &own->state->world, own->seed, NULL)) {
@@ -421,6 +429,19 @@ void srp_raytrace_watch(srp_prepared *prepared,
     raytrace *state = (raytrace *)prepared;
     state->world.watch = watch;
     state->world.user = user;
+}
+
+void srp_raytrace_set_tracer(srp_prepared *prepared, srp_raytrace_tracer tracer) {
+    ((raytrace *)prepared)->tracer = tracer;
+}
+
+srp_raytrace_tracer srp_raytrace_get_tracer(const srp_prepared *prepared) {
+    return ((const raytrace *)prepared)->tracer;
+}
+
+const srp_bounce_world *srp_raytrace_world(const srp_prepared *prepared) {
+    const raytrace *state = (const raytrace *)prepared;
+    return state->reflects ? &state->world : NULL;
 }
 
 const srp_method srp_method_raytrace = {
