@@ -22,30 +22,6 @@ static srp_status create_program(srp_gl_canvas *canvas, srp_error *error) {
     return status;
 }
 
-static GLuint attach(const srp_gl_canvas *canvas, GLenum format, GLenum place) {
-    const srp_gl_functions *gl = &canvas->context->gl;
-    GLuint buffer;
-    gl->GenRenderbuffers(1, &buffer);
-    gl->BindRenderbuffer(GL_RENDERBUFFER, buffer);
-    gl->RenderbufferStorage(GL_RENDERBUFFER, format, canvas->side, canvas->side);
-    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
-    return buffer;
-}
-
-static srp_status create_target(srp_gl_canvas *canvas, srp_error *error) {
-    const srp_gl_functions *gl = &canvas->context->gl;
-    gl->GenFramebuffers(1, &canvas->framebuffer);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
-    canvas->colour = attach(canvas, GL_R32UI, GL_COLOR_ATTACHMENT0);
-    canvas->depth = attach(canvas, GL_DEPTH_COMPONENT32F, GL_DEPTH_ATTACHMENT);
-    srp_status status = srp_gl_context_check(canvas->context, "a target for triangles", error);
-    if (status == SRP_OK && gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        status = srp_fail(error, SRP_NO_DEVICE, "%s (%s) does not draw whole numbers",
-                          canvas->context->device->name, canvas->context->renderer);
-    }
-    return status;
-}
-
 static void create_buffers(srp_gl_canvas *canvas, const float *vertices, size_t count) {
     const srp_gl_functions *gl = &canvas->context->gl;
     gl->GenVertexArrays(1, &canvas->array);
@@ -60,18 +36,15 @@ static void create_buffers(srp_gl_canvas *canvas, const float *vertices, size_t 
     gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, canvas->indices);
 }
 
-srp_status srp_gl_canvas_create(const srp_gl_context *context, GLint side, const float *vertices,
-                                size_t count, srp_gl_canvas *out, srp_error *error) {
+srp_status srp_gl_canvas_create(const srp_gl_context *context, const float *vertices, size_t count,
+                                srp_gl_canvas *out, srp_error *error) {
     srp_gl_canvas canvas;
     memset(&canvas, 0, sizeof canvas);
     canvas.context = context;
-    canvas.side = side;
     srp_status status = create_program(&canvas, error);
     if (status == SRP_OK) {
-        status = create_target(&canvas, error);
-    }
-    if (status == SRP_OK) {
         create_buffers(&canvas, vertices, count);
+        context->gl.GenFramebuffers(1, &canvas.framebuffer);
         status = srp_gl_context_check(context, "the vertices of the model", error);
     }
     if (status != SRP_OK) {
@@ -82,32 +55,68 @@ srp_status srp_gl_canvas_create(const srp_gl_context *context, GLint side, const
     return SRP_OK;
 }
 
+static void drop_layers(srp_gl_canvas *canvas) {
+    const srp_gl_functions *gl = &canvas->context->gl;
+    gl->DeleteTextures(1, &canvas->colour);
+    gl->DeleteRenderbuffers(1, &canvas->depth);
+    canvas->colour = canvas->depth = 0;
+    canvas->side = canvas->layers = 0;
+}
+
 void srp_gl_canvas_clear(srp_gl_canvas *canvas) {
     if (canvas->context != NULL) {
         const srp_gl_functions *gl = &canvas->context->gl;
         const GLuint buffers[2] = {canvas->vertices, canvas->indices};
-        const GLuint targets[2] = {canvas->colour, canvas->depth};
         gl->DeleteProgram(canvas->program);
         gl->DeleteVertexArrays(1, &canvas->array);
         gl->DeleteBuffers(2, buffers);
         gl->DeleteFramebuffers(1, &canvas->framebuffer);
-        gl->DeleteRenderbuffers(2, targets);
+        drop_layers(canvas);
         memset(canvas, 0, sizeof *canvas);
     }
 }
 
-void srp_gl_canvas_begin(srp_gl_canvas *canvas, GLint width, GLint height) {
+srp_status srp_gl_canvas_resize(srp_gl_canvas *canvas, GLint side, GLint layers, srp_error *error) {
+    const srp_gl_functions *gl = &canvas->context->gl;
+    drop_layers(canvas);
+    gl->GenTextures(1, &canvas->colour);
+    gl->BindTexture(GL_TEXTURE_2D_ARRAY, canvas->colour);
+    gl->TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
+    gl->TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32UI, side, side, layers, 0, GL_RED_INTEGER,
+                   GL_UNSIGNED_INT, NULL);
+    gl->GenRenderbuffers(1, &canvas->depth);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, canvas->depth);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, side, side);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    gl->FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, canvas->colour, 0, 0);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                                canvas->depth);
+    srp_status status = srp_gl_context_check(canvas->context, "pictures of triangles", error);
+    if (status == SRP_OK && gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        status = srp_fail(error, SRP_NO_DEVICE, "%s (%s) does not draw whole numbers",
+                          canvas->context->device->name, canvas->context->renderer);
+    }
+    if (status == SRP_OK) {
+        canvas->side = side;
+        canvas->layers = layers;
+    }
+    return status;
+}
+
+void srp_gl_canvas_begin(const srp_gl_canvas *canvas, GLint layer, GLint width, GLint height) {
     static const GLuint NOTHING[4] = {0, 0, 0, 0};
     static const GLfloat FAR[1] = {1.0F};
     const srp_gl_functions *gl = &canvas->context->gl;
-    canvas->width = width;
-    canvas->height = height;
     gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    gl->FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, canvas->colour, 0, layer);
     gl->BindVertexArray(canvas->array);
     gl->UseProgram(canvas->program);
     gl->Enable(GL_DEPTH_TEST);
     gl->Enable(GL_SCISSOR_TEST);
     gl->DepthFunc(GL_LESS);
+    gl->Viewport(0, 0, width, height);
     gl->Scissor(0, 0, width, height);
     gl->ClearBufferuiv(GL_COLOR, 0, NOTHING);
     gl->ClearBufferfv(GL_DEPTH, 0, FAR);
@@ -132,8 +141,6 @@ void srp_gl_canvas_draw(const srp_gl_canvas *canvas, const srp_gl_view *view, si
     if (count == 0) {
         return;
     }
-    gl->Viewport(view->left, view->bottom, view->width, view->height);
-    gl->Scissor(view->left, view->bottom, view->width, view->height);
     for (int k = 0; k < 3; ++k) {
         gl->Uniform4fv(canvas->along[k], 1, view->along[k]);
     }
@@ -142,10 +149,12 @@ void srp_gl_canvas_draw(const srp_gl_canvas *canvas, const srp_gl_view *view, si
                      (const void *)(uintptr_t)(3 * begin * sizeof(uint32_t)));
 }
 
-srp_status srp_gl_canvas_read(const srp_gl_canvas *canvas, uint32_t *ids, srp_error *error) {
+void srp_gl_canvas_read(const srp_gl_canvas *canvas, GLint layer, GLint width, GLint height,
+                        uint32_t *ids) {
     const srp_gl_functions *gl = &canvas->context->gl;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    gl->FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, canvas->colour, 0, layer);
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0);
     gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl->ReadPixels(0, 0, canvas->width, canvas->height, GL_RED_INTEGER, GL_UNSIGNED_INT, ids);
-    return srp_gl_context_check(canvas->context, "drawing triangles", error);
+    gl->ReadPixels(0, 0, width, height, GL_RED_INTEGER, GL_UNSIGNED_INT, ids);
 }

@@ -15,14 +15,12 @@
     X(PFNGLGETERRORPROC, GetError)                                                                 \
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                           \
     X(PFNGLENABLEPROC, Enable)                                                                     \
-    X(PFNGLDISABLEPROC, Disable)                                                                   \
     X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                               \
     X(PFNGLVIEWPORTPROC, Viewport)                                                                 \
     X(PFNGLSCISSORPROC, Scissor)                                                                   \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                           \
     X(PFNGLREADBUFFERPROC, ReadBuffer)                                                             \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                             \
-    X(PFNGLFINISHPROC, Finish)                                                                     \
     X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                                                   \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                   \
     X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                             \
@@ -32,6 +30,9 @@
     X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                           \
     X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)                                           \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)                                   \
+    X(PFNGLFRAMEBUFFERTEXTURELAYERPROC, FramebufferTextureLayer)                                   \
+    X(PFNGLTEXIMAGE3DPROC, TexImage3D)                                                             \
+    X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                       \
     X(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                                                     \
     X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                                                       \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                                                   \
@@ -65,12 +66,9 @@
     X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                       \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                             \
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                             \
-    X(PFNGLUNIFORM1IPROC, Uniform1i)                                                               \
     X(PFNGLUNIFORM1UIPROC, Uniform1ui)                                                             \
-    X(PFNGLUNIFORM2UIPROC, Uniform2ui)                                                             \
     X(PFNGLUNIFORM3FPROC, Uniform3f)                                                               \
-    X(PFNGLUNIFORM4FVPROC, Uniform4fv)                                                             \
-    X(PFNGLUNIFORM2UIVPROC, Uniform2uiv)
+    X(PFNGLUNIFORM4FVPROC, Uniform4fv)
 
 /* Core 4.3: compute shaders. */
 #define SRP_GL_FUNCTIONS_43(X)                                                                     \

@@ -8,8 +8,12 @@
  * the mesh in double precision and leaves out what faces away or lies between samples; the GPU
  * turns vertices in float.
  *
- * Several directions share a target when they are small, and large lattices are drawn in pieces.
+ * Many directions are drawn before the first is read, each into a layer of its own; large lattices
+ * are drawn in pieces. GPUs count fast, too, but the error of a response follows from where along
+ * each row the numbers change, so that they are read.
  */
+#include "raycast.h"
+
 #include "canvas.h"
 #include "error.h"
 #include "methods.h"
@@ -24,13 +28,11 @@
 #include <string.h>
 
 enum {
-    /* Samples along a side of the target: four lattices of 512 beside each other, with gaps. */
-    TARGET_SIDE = 2064,
-    /* Samples between pictures in one target: the silhouette may reach half a cell beyond them. */
-    GAP = 1,
-    DIRECTIONS_MAX = 64,            /* at a time */
-    FACETS_MAX = 1 << 21,           /* of all of them together */
-    PIECES_MAX = 4 * DIRECTIONS_MAX /* in one target */
+    SIDE_MAX = 2048,       /* samples along a side of a piece */
+    SIDE_STEP = 64,        /* sides of layers are multiples of this */
+    SAMPLES_MAX = 1 << 22, /* of all layers */
+    DIRECTIONS_MAX = 64,   /* at a time; and layers */
+    FACETS_MAX = 1 << 21   /* of all directions together */
 };
 
 /* A vertex is moved by up to half a step of the GPU's 1/256 of a cell, and by rounding to float: a
@@ -46,6 +48,8 @@ typedef struct raycast {
     srp_raster_mesh mesh;
     double *lever2;
     float *vertices; /* (3 vertex_count) about the scene's centre, in units of its radius */
+    srp_gl_raycast_watcher watch; /* NULL but in tests */
+    void *user;
 } raycast;
 
 /* A direction in work. */
@@ -64,26 +68,23 @@ typedef struct shot {
     bool done;
 } shot;
 
-/* Part of a direction's lattice, in the target. */
+/* Part of a direction's lattice, in a layer. */
 typedef struct piece {
     shot *of;
-    int32_t column, row; /* of the lattice */
-    GLint left, bottom, width, height;
+    int32_t column, row, width, height; /* of the lattice */
 } piece;
 
 typedef struct raycast_worker {
     srp_gl_worker head;
     srp_gl_canvas canvas;
-    uint32_t *ids; /* (side^2) */
+    uint32_t *ids; /* (canvas.layers, canvas.side^2) */
     uint32_t *indices;
     size_t index_capacity;
     size_t shot_count;
     shot *shots;
-    shot **open; /* (shot_count) those that need another round */
-    piece pieces[PIECES_MAX];
+    shot **open;                  /* (shot_count) those that need another round */
+    piece pieces[DIRECTIONS_MAX]; /* the k-th is in layer k */
     size_t piece_count;
-    GLint used_width, used_height; /* of the target */
-    GLint shelf_left, shelf_bottom, shelf_top;
 } raycast_worker;
 
 /* ---- workers ---- */
@@ -135,14 +136,12 @@ static srp_status fill_worker(const srp_prepared *prepared, srp_gl_worker *worke
                               srp_error *error) {
     const raycast *state = (const raycast *)prepared;
     raycast_worker *own = (raycast_worker *)worker;
-    GLint side = worker->context->side_max < TARGET_SIDE ? worker->context->side_max : TARGET_SIDE;
-    srp_status status = srp_gl_canvas_create(worker->context, side, state->vertices,
+    srp_status status = srp_gl_canvas_create(worker->context, state->vertices,
                                              state->mesh.vertex_count, &own->canvas, error);
     if (status != SRP_OK) {
         return status;
     }
-    own->ids = malloc((size_t)side * (size_t)side * sizeof *own->ids);
-    if (own->ids == NULL || !fill_shots(state, own)) {
+    if (!fill_shots(state, own)) {
         return srp_fail(error, SRP_NO_MEMORY, "no memory for the %s method",
                         prepared->method->name);
     }
@@ -271,8 +270,7 @@ static void set_row(float row[4], const srp_scene *scene, srp_vec3 axis, double 
 
 static srp_gl_view view_of(const srp_scene *scene, const piece *at) {
     const srp_lattice *lattice = &at->of->frame.lattice;
-    srp_gl_view view = {
-        .left = at->left, .bottom = at->bottom, .width = at->width, .height = at->height};
+    srp_gl_view view = {.width = at->width, .height = at->height};
     /* A sample is the middle of a pixel: 0 lies half a pixel from the left edge, which is at -1. */
     double per_u = 2.0 / (at->width * lattice->du), per_v = 2.0 / (at->height * lattice->dv);
     set_row(view.along[0], scene, lattice->view.u, per_u,
@@ -317,98 +315,109 @@ static void count_row(shot *of, const uint32_t *ids, int32_t width, int32_t colu
     }
 }
 
+static uint32_t *layer_of(const raycast_worker *own, size_t layer) {
+    return own->ids + layer * (size_t)own->canvas.side * (size_t)own->canvas.side;
+}
+
 /* Counts all pieces of a direction. */
-static void count_shot(const raycast_worker *own, shot *of) {
+static void count_shot(const raycast *state, const raycast_worker *own, shot *of) {
     for (size_t k = 0; k < own->piece_count; ++k) {
         const piece *at = &own->pieces[k];
         for (int32_t j = 0; at->of == of && j < at->height; ++j) {
-            size_t place = (size_t)(at->bottom + j) * (size_t)own->used_width + (size_t)at->left;
-            count_row(of, own->ids + place, at->width, at->column, at->row + j);
+            const uint32_t *ids = layer_of(own, k) + (size_t)j * (size_t)at->width;
+            if (state->watch != NULL) {
+                state->watch(state->user, &of->frame, at->column, at->row + j, at->width, ids);
+            }
+            count_row(of, ids, at->width, at->column, at->row + j);
         }
     }
 }
 
-/* ---- the target ---- */
+/* ---- layers ---- */
 
-static void empty_target(raycast_worker *own) {
-    own->piece_count = 0;
-    own->used_width = own->used_height = 0;
-    own->shelf_left = own->shelf_bottom = own->shelf_top = 0;
+/* Makes layers that fit the directions that are open, unless they are there. */
+static srp_status choose_layers(raycast_worker *own, size_t open_count, srp_error *error) {
+    int32_t limit = own->head.context->side_max < SIDE_MAX ? own->head.context->side_max : SIDE_MAX;
+    int32_t longest = 1;
+    for (size_t k = 0; k < open_count; ++k) {
+        const srp_lattice *lattice = &own->open[k]->frame.lattice;
+        longest = lattice->columns > longest ? lattice->columns : longest;
+        longest = lattice->rows > longest ? lattice->rows : longest;
+    }
+    int32_t side = (longest + SIDE_STEP - 1) / SIDE_STEP * SIDE_STEP;
+    side = side < limit ? side : limit;
+    if (side <= own->canvas.side && own->canvas.side < 2 * side) {
+        return SRP_OK; /* what lies beyond a lattice costs nothing */
+    }
+    int32_t layers = SAMPLES_MAX / (side * side);
+    layers = layers < 1 ? 1 : layers > DIRECTIONS_MAX ? DIRECTIONS_MAX : layers;
+    free(own->ids);
+    own->ids = malloc((size_t)layers * (size_t)side * (size_t)side * sizeof *own->ids);
+    if (own->ids == NULL) {
+        own->canvas.side = 0; /* there is no memory to read this size into */
+        return srp_fail(error, SRP_NO_MEMORY, "no memory for %d pictures of %d x %d samples",
+                        layers, side, side);
+    }
+    return srp_gl_canvas_resize(&own->canvas, side, layers, error);
 }
 
-/* Draws what has been laid out, and counts it. */
+/* Reads the pictures that were drawn, and counts them. */
 static srp_status flush(const raycast *state, raycast_worker *own, size_t open_count,
                         srp_error *error) {
-    if (own->piece_count == 0) {
-        return SRP_OK;
-    }
-    srp_gl_canvas_begin(&own->canvas, own->used_width, own->used_height);
     for (size_t k = 0; k < own->piece_count; ++k) {
-        draw_piece(state->head.scene, own, &own->pieces[k]);
+        srp_gl_canvas_read(&own->canvas, (GLint)k, own->pieces[k].width, own->pieces[k].height,
+                           layer_of(own, k));
     }
-    srp_status status = srp_gl_canvas_read(&own->canvas, own->ids, error);
-    if (status == SRP_OK) {
+    srp_status status = srp_gl_context_check(own->head.context, "drawing triangles", error);
+    if (status == SRP_OK && own->piece_count > 0) {
         int threads = state->head.params.threads;
         (void)threads; /* without OpenMP */
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
         for (size_t k = 0; k < open_count; ++k) {
-            count_shot(own, own->open[k]);
+            count_shot(state, own, own->open[k]);
         }
     }
-    empty_target(own);
+    own->piece_count = 0;
     return status;
 }
 
-/* Finds room on the shelf that is being filled, or on the next one; false: the target is full. */
-static bool place(raycast_worker *own, piece *at) {
-    GLint side = own->canvas.side;
-    if (own->piece_count == PIECES_MAX) {
-        return false;
+/* Draws a piece into the next layer, and makes room first when all are in use. */
+static srp_status add_piece(const raycast *state, raycast_worker *own, size_t open_count,
+                            const piece *at, srp_error *error) {
+    srp_status status = SRP_OK;
+    if (own->piece_count == (size_t)own->canvas.layers) {
+        status = flush(state, own, open_count, error);
     }
-    if (own->shelf_left + at->width > side) {
-        own->shelf_bottom = own->shelf_top + GAP;
-        own->shelf_left = 0;
+    if (status == SRP_OK) {
+        srp_gl_canvas_begin(&own->canvas, (GLint)own->piece_count, at->width, at->height);
+        draw_piece(state->head.scene, own, at);
+        own->pieces[own->piece_count++] = *at;
     }
-    if (own->shelf_bottom + at->height > side) {
-        return false;
-    }
-    at->left = own->shelf_left;
-    at->bottom = own->shelf_bottom;
-    own->shelf_left += at->width + GAP;
-    GLint right = at->left + at->width, top = at->bottom + at->height;
-    own->shelf_top = top > own->shelf_top ? top : own->shelf_top;
-    own->used_width = right > own->used_width ? right : own->used_width;
-    own->used_height = top > own->used_height ? top : own->used_height;
-    own->pieces[own->piece_count++] = *at;
-    return true;
+    return status;
 }
 
 /* Draws and counts all directions that are open. */
 static srp_status draw_all(const raycast *state, raycast_worker *own, size_t open_count,
                            srp_error *error) {
+    srp_status status = choose_layers(own, open_count, error);
     int32_t side = own->canvas.side;
-    empty_target(own);
-    for (size_t k = 0; k < open_count; ++k) {
+    own->piece_count = 0;
+    for (size_t k = 0; k < open_count && status == SRP_OK; ++k) {
         const srp_lattice *lattice = &own->open[k]->frame.lattice;
         for (int32_t row = 0; row < lattice->rows; row += side) {
-            for (int32_t column = 0; column < lattice->columns; column += side) {
+            for (int32_t column = 0; column < lattice->columns && status == SRP_OK;
+                 column += side) {
                 int32_t width = lattice->columns - column, height = lattice->rows - row;
                 piece at = {.of = own->open[k],
                             .column = column,
                             .row = row,
                             .width = width < side ? width : side,
                             .height = height < side ? height : side};
-                if (!place(own, &at)) {
-                    srp_status status = flush(state, own, open_count, error);
-                    if (status != SRP_OK) {
-                        return status;
-                    }
-                    (void)place(own, &at); /* an empty target has room for any piece */
-                }
+                status = add_piece(state, own, open_count, &at, error);
             }
         }
     }
-    return flush(state, own, open_count, error);
+    return status == SRP_OK ? flush(state, own, open_count, error) : status;
 }
 
 /* ---- directions ---- */
@@ -559,4 +568,10 @@ srp_status srp_gl_raycast_prepare(const srp_method *method, const srp_gl_device 
 fail:
     return srp_fail(error, SRP_NO_MEMORY, "no memory for the raycast method on %zu facets",
                     scene->facet_count);
+}
+
+void srp_gl_raycast_watch(srp_prepared *prepared, srp_gl_raycast_watcher watch, void *user) {
+    raycast *state = (raycast *)prepared;
+    state->watch = watch;
+    state->user = user;
 }

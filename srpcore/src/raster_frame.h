@@ -99,12 +99,12 @@ typedef struct srp_raster_side {
 static inline srp_raster_side srp_raster_frame_side(const srp_raster_frame *frame, uint32_t facet) {
     const srp_raster_mesh *mesh = frame->mesh;
     bool back = frame->cosine[facet] < 0.0;
-    double turn = back ? -1.0 : 1.0;
+    double sign = back ? -1.0 : 1.0;
     srp_raster_side side;
     side.surface = &mesh->surface[mesh->material[facet]][back];
     side.normal =
-        srp_vec3_make(turn * mesh->nx[facet], turn * mesh->ny[facet], turn * mesh->nz[facet]);
-    side.cosine = turn * frame->cosine[facet];
+        srp_vec3_make(sign * mesh->nx[facet], sign * mesh->ny[facet], sign * mesh->nz[facet]);
+    side.cosine = sign * frame->cosine[facet];
     return side;
 }
 
