@@ -32,10 +32,10 @@ static void trim(char *log) {
 static srp_status compile(const srp_gl_context *context, const char *prelude,
                           const srp_gl_stage *stage, GLuint *out, srp_error *error) {
     const srp_gl_functions *gl = &context->gl;
-    const GLchar *texts[2] = {prelude, stage->source->text};
+    const GLchar *texts[3] = {prelude, "#line 1\n", stage->source->text};
     GLuint shader = gl->CreateShader(stage->kind);
     GLint compiled = GL_FALSE;
-    gl->ShaderSource(shader, 2, texts, NULL);
+    gl->ShaderSource(shader, 3, texts, NULL);
     gl->CompileShader(shader);
     gl->GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     if (!compiled) {
