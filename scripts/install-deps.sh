@@ -4,7 +4,7 @@
 # Ubuntu 22.04 or 24.04. Does nothing, and asks no network, where all are there. Works as root and
 # through sudo.
 #
-#   scripts/install-deps.sh [build] [test] [ci]     default: build test
+#   scripts/install-deps.sh [build] [test] [ci] [gl]     default: build test
 set -euo pipefail
 
 BUILD=(gcc g++ cmake ninja-build pkg-config libc6-dev libnetcdf-dev libxxhash-dev)
@@ -13,6 +13,10 @@ CI=(clang clang-format libomp-dev)
 # Nice to have, and tried once, without a word when that fails but that it did: the yardstick of the
 # benchmarks, a look into tables, rendering of manual pages.
 OPTIONAL=(libembree-dev netcdf-bin mandoc)
+# OpenGL: headers to build with (else --device gl is left out), and what is opened at run time (else
+# it says what is missing, and its tests are skipped).
+GL=(libgl-dev libegl-dev libosmesa6 libegl1 libgl1-mesa-dri)
+OPTIONAL+=("${GL[@]}")
 # Run-time libraries of the sanitizers and the fuzzer of clang; where there is no such package (Ubuntu
 # 22.04) they come with clang itself.
 OPTIONAL+=(libclang-rt-dev)
@@ -70,8 +74,9 @@ main() {
         ci)
             required+=("${CI[@]}")
             ;;
+        gl) required+=("${GL[@]}") ;;
         *)
-            echo "install-deps: unknown group '$group', expected build, test or ci" >&2
+            echo "install-deps: unknown group '$group', expected build, test, ci or gl" >&2
             exit 2
             ;;
         esac

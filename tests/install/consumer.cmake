@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the build to a scratch prefix and builds a project outside the tree against it, through
 # the CMake package and through pkg-config.
-#   cmake -D BUILD=... -D SOURCE=... -D EXAMPLE=... -D MODEL=... -D SCRATCH=... -D CC=... -D CXX=... -D PKG_CONFIG=... -P ...
+#   cmake -D BUILD=... -D GL=... -D SOURCE=... -D EXAMPLE=... -D MODEL=... -D SCRATCH=... -D CC=... -D CXX=... -D PKG_CONFIG=... -P ...
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -24,6 +24,13 @@ foreach(program consumer_shared consumer_static consumer_cxx)
 endforeach()
 run(${SCRATCH}/cmake/example ${MODEL})
 set(example_output "${output}")
+
+if(EXISTS ${SCRATCH}/cmake/consumer_gl)
+  run(${SCRATCH}/cmake/consumer_gl)
+  message(STATUS "consumer_gl: ${output}")
+elseif(GL)
+  message(FATAL_ERROR "srpcore::gl is not in the installed package")
+endif()
 
 file(GLOB_RECURSE pc ${prefix}/srpcore.pc)
 get_filename_component(pc_directory ${pc} DIRECTORY)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Every symbol that the libraries show to others begins with srp_, and the shared one is linked to
 # no GSL, which is under another licence.
-#   cmake -D SHARED=... -D STATIC=... -D NM=... -P exports.cmake
+#   cmake -D SHARED=... -D STATIC=... -D GL=... -D NM=... -P exports.cmake
 function(check_symbols library)
   execute_process(COMMAND ${NM} ${ARGN} -g --defined-only --format=posix ${library}
     RESULT_VARIABLE status OUTPUT_VARIABLE table ERROR_VARIABLE message)
@@ -27,6 +27,9 @@ endfunction()
 
 check_symbols(${SHARED} -D)
 check_symbols(${STATIC})
+if(GL)
+  check_symbols(${GL})
+endif()
 
 execute_process(COMMAND ldd ${SHARED} RESULT_VARIABLE status OUTPUT_VARIABLE needed)
 if(NOT status EQUAL 0 OR NOT needed MATCHES "libc\\.so")

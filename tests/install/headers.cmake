@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # Each public header compiles alone, as C11 and as C++17, without a warning.
-#   cmake -D INCLUDE=... -D SCRATCH=... -D CC=... -D CXX=... -P headers.cmake
+#   cmake -D INCLUDE=... [-D DEPENDS=...] -D SCRATCH=... -D CC=... -D CXX=... -P headers.cmake
 file(MAKE_DIRECTORY ${SCRATCH})
 file(GLOB headers RELATIVE ${INCLUDE} ${INCLUDE}/srp/*.h)
 if(NOT headers)
   message(FATAL_ERROR "no header in ${INCLUDE}")
+endif()
+set(needed "")
+if(DEPENDS)
+  set(needed -I ${DEPENDS})
 endif()
 set(warnings -Wall -Wextra -Wpedantic -Wshadow -Werror)
 foreach(header IN LISTS headers)
@@ -15,7 +19,7 @@ foreach(header IN LISTS headers)
       set(compiler ${CXX} -std=c++17)
     endif()
     execute_process(
-      COMMAND ${compiler} ${warnings} -fsyntax-only -I ${INCLUDE} -x ${language}
+      COMMAND ${compiler} ${warnings} -fsyntax-only -I ${INCLUDE} ${needed} -x ${language}
               ${SCRATCH}/alone.${language}
       RESULT_VARIABLE status ERROR_VARIABLE message)
     if(NOT status EQUAL 0)

@@ -25,14 +25,19 @@ forbid("^ *# *include *[<\"](apps|gl|orbit|plugin|bench|models|tests)/"
        "srpcore depends on nothing above it" ${core})
 forbid("^ *# *include *<(gsl|GL|EGL|embree[0-9]*|mpi)[/.]"
        "srpcore links neither GSL nor a graphics library" ${core})
+file(GLOB gl ${ROOT}/gl/src/*.[ch] ${ROOT}/gl/include/srp/*.h)
+list(APPEND portable ${gl})
+forbid("^ *# *include *[<\"](apps|orbit|plugin|bench|models|tests)/" "gl depends on srpcore alone" ${gl})
+forbid("^ *# *include *<(gsl|embree[0-9]*|mpi|X11)[/.]" "gl links no GSL and no window system" ${gl})
+
 forbid("^ *# *include *<(unistd|fcntl|dirent|pthread|signal|dlfcn|sched|locale|xlocale|sys/[a-z]+)\\.h>"
        "what only POSIX or glibc has is in platform.c" ${portable})
 forbid("(^|[^a-z_])(printf|puts|putchar|perror|exit|abort|_Exit|assert) *\\("
-       "a library does not print or end the program" ${core})
-forbid("(^|[^a-z_/])(std(out|err))([^a-z_]|$)" "a library does not print" ${core})
+       "a library does not print or end the program" ${core} ${gl})
+forbid("(^|[^a-z_/])(std(out|err))([^a-z_]|$)" "a library does not print" ${core} ${gl})
 
 file(GLOB_RECURSE sources
-  ${ROOT}/srpcore/*.[ch] ${ROOT}/apps/*.[ch] ${ROOT}/bench/*.[ch] ${ROOT}/models/*.[ch]
+  ${ROOT}/srpcore/*.[ch] ${ROOT}/gl/*.[ch] ${ROOT}/gl/*.glsl ${ROOT}/apps/*.[ch] ${ROOT}/bench/*.[ch] ${ROOT}/models/*.[ch]
   ${ROOT}/tests/*.[ch] ${ROOT}/tests/*.cpp)
 foreach(file IN LISTS sources)
   file(STRINGS ${file} head LIMIT_COUNT 1)
