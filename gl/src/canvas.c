@@ -6,6 +6,10 @@
 
 #include <string.h>
 
+/* And by so many of the smallest steps of depth, which are what a plane without slope is known to.
+ */
+static const float RECEDE_UNITS = 16.0F;
+
 static srp_status create_program(srp_gl_canvas *canvas, srp_error *error) {
     static const srp_gl_stage STAGES[] = {{GL_VERTEX_SHADER, &srp_gl_ids_vert},
                                           {GL_FRAGMENT_SHADER, &srp_gl_ids_frag}};
@@ -145,6 +149,12 @@ void srp_gl_canvas_draw(const srp_gl_canvas *canvas, const srp_gl_view *view, si
         gl->Uniform4fv(canvas->along[k], 1, view->along[k]);
     }
     gl->Uniform1ui(canvas->first, first);
+    if (view->recede > 0.0F) {
+        gl->Enable(GL_POLYGON_OFFSET_FILL);
+        gl->PolygonOffset(view->recede, RECEDE_UNITS);
+    } else {
+        gl->Disable(GL_POLYGON_OFFSET_FILL);
+    }
     gl->DrawElements(GL_TRIANGLES, (GLsizei)(3 * count), GL_UNSIGNED_INT,
                      (const void *)(uintptr_t)(3 * begin * sizeof(uint32_t)));
 }

@@ -29,6 +29,9 @@ typedef struct srp_gl_view {
     /* Vertices p to coordinates within [-1, 1], x, y, and depth with -1 nearest: xyz . p + w. */
     float along[3][4];
     GLint width, height; /* in samples */
+    /* Triangles are drawn as if they were this much further away: what their depth changes by
+     * within so many samples. */
+    float recede;
 } srp_gl_view;
 
 /* Copies `count` vertices; there is no layer yet. SRP_NO_MEMORY, SRP_NO_DEVICE. */

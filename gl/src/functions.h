@@ -15,6 +15,8 @@
     X(PFNGLGETERRORPROC, GetError)                                                                 \
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                           \
     X(PFNGLENABLEPROC, Enable)                                                                     \
+    X(PFNGLDISABLEPROC, Disable)                                                                   \
+    X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                                                       \
     X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                               \
     X(PFNGLVIEWPORTPROC, Viewport)                                                                 \
     X(PFNGLSCISSORPROC, Scissor)                                                                   \

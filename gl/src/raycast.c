@@ -39,8 +39,9 @@ enum {
  * facet that comes no nearer to a sample than this [cells] is not drawn. */
 static const double SNAP = 1.0 / 64.0;
 
-/* How much of the depth range faces turned away lie behind others at the same place. */
-static const double BACK_BIAS = 0x1p-20;
+/* Faces turned away lie behind others at the same place: by what moving the vertices of both may do
+ * to their depth [samples]. */
+static const float BACK_RECEDES = 2.0F / 256.0F;
 
 typedef struct raycast {
     srp_prepared head;
@@ -288,7 +289,7 @@ static void draw_piece(const srp_scene *scene, const raycast_worker *own, const 
     const shot *of = at->of;
     srp_gl_view view = view_of(scene, at);
     srp_gl_canvas_draw(&own->canvas, &view, of->begin, of->turned, 1);
-    view.along[2][3] += (float)BACK_BIAS;
+    view.recede = BACK_RECEDES;
     srp_gl_canvas_draw(&own->canvas, &view, of->begin + of->turned,
                        of->frame.facet_count - of->turned, (uint32_t)of->turned + 1);
 }
