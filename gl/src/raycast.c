@@ -115,18 +115,16 @@ static void clear_worker(srp_gl_worker *worker) {
     free(own->indices);
 }
 
-static bool fill_shots(const raycast *state, raycast_worker *own) {
-    const srp_scene *scene = state->head.scene;
-    own->shot_count = shots_for(scene);
-    own->shots = calloc(own->shot_count, sizeof *own->shots);
-    own->open = calloc(own->shot_count, sizeof *own->open);
-    if (own->shots == NULL || own->open == NULL) {
-        return false;
-    }
-    for (size_t k = 0; k < own->shot_count; ++k) {
+/* Scratch memory for as many directions as are in work at once: made when first needed. */
+static bool fill_shots(const raycast *state, raycast_worker *own, size_t count) {
+    size_t row = state->head.scene->material_count + 1;
+    for (size_t k = 0; k < count; ++k) {
         shot *of = &own->shots[k];
-        of->basis = calloc(scene->material_count + 1, sizeof *of->basis);
-        if (of->basis == NULL || !srp_raster_frame_create(&of->frame, &state->mesh)) {
+        if (of->basis == NULL) {
+            of->basis = calloc(row, sizeof *of->basis);
+        }
+        if (of->basis == NULL ||
+            (of->frame.mesh == NULL && !srp_raster_frame_create(&of->frame, &state->mesh))) {
             return false;
         }
     }
@@ -142,7 +140,10 @@ static srp_status fill_worker(const srp_prepared *prepared, srp_gl_worker *worke
     if (status != SRP_OK) {
         return status;
     }
-    if (!fill_shots(state, own)) {
+    own->shot_count = shots_for(prepared->scene);
+    own->shots = calloc(own->shot_count, sizeof *own->shots);
+    own->open = calloc(own->shot_count, sizeof *own->open);
+    if (own->shots == NULL || own->open == NULL) {
         return srp_fail(error, SRP_NO_MEMORY, "no memory for the %s method",
                         prepared->method->name);
     }
@@ -470,6 +471,10 @@ static srp_status run_batch(const raycast *state, raycast_worker *own, size_t co
                             srp_error *error) {
     const srp_scene *scene = state->head.scene;
     size_t row = scene->material_count + 1, open_count = count;
+    if (!fill_shots(state, own, count)) {
+        return srp_fail(error, SRP_NO_MEMORY, "no memory for the %s method",
+                        state->head.method->name);
+    }
     for (size_t k = 0; k < count; ++k) {
         own->open[k] = &own->shots[k];
         own->shots[k].index = k;

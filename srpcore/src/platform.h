@@ -54,9 +54,10 @@ srp_status srp_platform_write_file(const char *path, const char *bytes, size_t s
                                    srp_error *error);
 
 /*
- * A shared library of the system, looked for at run time: the first of `names` (ends with NULL) that
- * is there. It stays mapped when it is closed: libraries that start threads of their own do not bear
- * to be taken away. NULL: none is there; *reason (size bytes) says what the loader said of the last.
+ * A shared library of the system, looked for at run time: the first of `names` (ends with NULL)
+ * that is there. It stays mapped when it is closed: libraries that start threads of their own do
+ * not bear to be taken away. NULL: none is there; *reason (size bytes) says what the loader said of
+ * the last.
  */
 typedef struct srp_platform_library srp_platform_library;
 srp_platform_library *srp_platform_library_open(const char *const *names, char *reason,
