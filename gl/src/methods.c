@@ -51,7 +51,8 @@
     static const srp_gl_device device_##id = {text, &srp_gl_##provider, index};                    \
     METHOD(id, text, raycast,                                                                      \
            "first-hit visibility sampled by a lattice of rays, drawn by OpenGL", CAN_CAST)         \
-    METHOD(id, text, raytrace, "first hit solved exactly, reflected light traced by OpenGL",       \
+    METHOD(id, text, raytrace,                                                                     \
+           "first hit and mirrored light solved exactly, the rest traced by OpenGL",               \
            CAN_CAST | SRP_METHOD_BOUNCE)
 DEVICES(DEFINE)
 

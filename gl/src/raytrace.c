@@ -2,11 +2,12 @@
 /*
  * Reflected light traced by a compute shader.
  *
- * The method is the processor's: direct light is solved exactly, the samples' first hits are drawn
- * in double precision, and errors follow from the same sums (raytrace.c of srpcore). Taken over are
- * the rays: bounce.comp.glsl follows the same paths through the same hierarchy, with the same
- * points for scattered directions. It writes the sums of each path by itself, in float, and they
- * are added here in double and in order, so that the scheduling of the GPU shows nowhere.
+ * The method is the processor's: direct light is solved exactly, and mirrored light as far as it is
+ * there, the samples' first hits are drawn in double precision, and errors follow from the same
+ * sums (raytrace.c of srpcore). Taken over are the rays: bounce.comp.glsl follows the same paths
+ * through the same hierarchy, with the same points for scattered directions. It writes the sums of
+ * each path by itself, in float, and they are added here in double and in order, so that the
+ * scheduling of the GPU shows nowhere.
  */
 #include "raytrace.h"
 
@@ -244,7 +245,8 @@ static void collect(const job *at) {
         for (uint32_t slot = 0; slot < slots_of(world); ++slot, sum += SUM_FLOATS) {
             add_sum(&group[SRP_BOUNCE_SPECULAR], sum, sum + 4, flux, per_unit, lever);
             add_sum(&group[SRP_BOUNCE_DIFFUSE], sum + 8, sum + 12, flux, per_unit, lever);
-            at->sums->unresolved += flux * (double)sum[3];
+            at->sums->unresolved[SRP_BOUNCE_SPECULAR] += flux * (double)sum[3];
+            at->sums->unresolved[SRP_BOUNCE_DIFFUSE] += flux * (double)sum[11];
             at->sums->rays += (uint64_t)sum[7];
         }
     }

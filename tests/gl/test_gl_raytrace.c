@@ -33,6 +33,7 @@ static srp_method_params params_of(uint32_t samples, uint32_t diffuse, uint32_t 
     params.diffuse = diffuse;
     params.reflections = reflections;
     params.reference = srp_vec3_make(0.31, -0.27, 0.64);
+    params.mirrored_beams = 0; /* mirrored light is sampled as well: that is what is compared */
     return params;
 }
 
@@ -139,6 +140,29 @@ START_TEST(the_number_of_reflections_is_kept) {
 }
 END_TEST
 
+/* Mirrored light that is solved exactly is so on every device: nothing is traced. */
+START_TEST(mirrored_beams_are_exact) {
+    model_file model = model_read("box-wing");
+    srp_scene *scene = model_scene(&model);
+    srp_method_params params = params_of(64, 0, 2);
+    params.mirrored_beams = 8192;
+    srp_vec3 s[DIRECTIONS];
+    srp_response cpu[DIRECTIONS], gl[DIRECTIONS];
+    some_directions(s, 14);
+    srp_prepared *want = prepare(&srp_method_raytrace, scene, &params);
+    srp_prepared *got = prepare(gl_method("raytrace"), scene, &params);
+    respond(want, DIRECTIONS, s, cpu);
+    respond(got, DIRECTIONS, s, gl);
+    ck_assert_mem_eq(cpu, gl, sizeof cpu);
+    srp_prepared_release(want);
+    srp_prepared_release(got);
+    params.diffuse = 3;
+    compare_scene("box-wing, exact mirrors", scene, &params);
+    srp_scene_destroy(scene);
+    model_free(&model);
+}
+END_TEST
+
 START_TEST(convex_bodies_are_exact) {
     model_file model = model_read("cube");
     srp_scene *scene = model_scene(&model);
@@ -233,6 +257,7 @@ static Suite *make_suite(bool is_long) {
     tcase_add_test(tcase, multiple_scattering_is_the_processors);
     tcase_add_test(tcase, backs_and_windows_are_the_processors);
     tcase_add_test(tcase, the_number_of_reflections_is_kept);
+    tcase_add_test(tcase, mirrored_beams_are_exact);
     tcase_add_test(tcase, convex_bodies_are_exact);
     tcase_add_test(tcase, runs_are_alike_to_the_bit);
     tcase_add_test(tcase, seeds_and_tolerance_count);

@@ -308,13 +308,14 @@ void main() {
     uvec2 place = b.xy;
     bool back = b.z != 0u, scattered = slot > 0u, going = true;
     Facet facet = facet_at(at, back);
-    float flux = 0.0, weight = 1.0, unresolved = 0.0;
+    float flux = 0.0, weight = 1.0;
+    float mirrors_lost = 0.0, diffuse_lost = 0.0; // flux that is not followed any more
     vec3 mirrors_f = vec3(0.0), mirrors_t = vec3(0.0), diffuse_f = vec3(0.0), diffuse_t = vec3(0.0);
 
     // The first bounce.
     float followed = facet.rho_s + (diffuse > 0u ? facet.rho_d : 0.0);
     if (reflections == 0u) {
-        unresolved = scattered ? 0.0 : followed;
+        mirrors_lost = scattered ? 0.0 : followed;
         going = false;
     } else if (scattered) {
         going = facet.rho_d > 0.0;
@@ -356,7 +357,8 @@ void main() {
             followed = facet.rho_s + (diffuse > 0u ? facet.rho_d : 0.0);
             if (followed > 0.0 && facet.sees) {
                 if (bounces == reflections) {
-                    unresolved += flux * followed;
+                    mirrors_lost += scattered ? 0.0 : flux * followed;
+                    diffuse_lost += scattered ? flux * followed : 0.0;
                 } else if (!scattered) {
                     bool splits = diffuse > 0u && facet.rho_d > 0.0;
                     vec3 mirrored = mirror(direction, n);
@@ -400,8 +402,8 @@ void main() {
             going = true;
         }
     }
-    sums[4u * invocation] = vec4(mirrors_f, unresolved);
+    sums[4u * invocation] = vec4(mirrors_f, mirrors_lost);
     sums[4u * invocation + 1u] = vec4(mirrors_t, float(rays));
-    sums[4u * invocation + 2u] = vec4(diffuse_f, 0.0);
+    sums[4u * invocation + 2u] = vec4(diffuse_f, diffuse_lost);
     sums[4u * invocation + 3u] = vec4(diffuse_t, 0.0);
 }
