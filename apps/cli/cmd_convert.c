@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "messages.h"
 #include "outputs.h"
+#include "table_input.h"
 
 #include <srp/table.h>
 
@@ -111,21 +112,11 @@ static int convert(const convert_options *options, const cli_operands *operands)
         return cli_usage_error("expected two files, IN and OUT, found %zu", operands->count);
     }
     const char *from = operands->items[0], *to = operands->items[1];
-    const srp_table_format *format = cli_format_of(from);
-    if (format == NULL || cli_format_of(to) == NULL) {
+    if (cli_format_of(from) == NULL || cli_format_of(to) == NULL) {
         return CLI_BAD_USAGE;
     }
     srp_table *table = NULL;
-    srp_error error;
-    if (srp_table_read(format, from, &table, &error) != SRP_OK) {
-        return cli_input_error(&error);
-    }
-    int status = CLI_DONE;
-    if (!srp_table_is_complete(table)) {
-        fprintf(stderr, "%s: only %zu of %zu nodes are there, expected a complete table\n", from,
-                srp_table_filled_count(table), srp_grid_node_count(srp_table_grid(table)));
-        status = CLI_BAD_INPUT;
-    }
+    int status = cli_table_open(from, &table);
     if (status == CLI_DONE) {
         status = convert_table(options, table, from, to);
     }

@@ -9,5 +9,6 @@ extern const cli_command cli_command_info;
 extern const cli_command cli_command_force;
 extern const cli_command cli_command_table;
 extern const cli_command cli_command_convert;
+extern const cli_command cli_command_compare;
 
 #endif
