@@ -43,6 +43,9 @@ typedef struct cli_plate_fit {
     srp_vec3 *model; /* (samples) what the plates give [m^2] */
 } cli_plate_fit;
 
+/* Whether this build can fit: it takes GSL. */
+bool cli_plate_fit_exists(void);
+
 /* Force of one-sided plates that do not shade each other [m^2]. */
 srp_vec3 cli_plates_force(const srp_plate *plates, size_t count, srp_vec3 s);
 

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Samples and differences of tables, against numbers that were worked out by hand. */
+#include "command.h"
 #include "difference.h"
 #include "samples.h"
 #include "srp_check.h"
+#include "table_input.h"
 
 #include <string.h>
 
@@ -151,6 +153,24 @@ START_TEST(grids_share_nodes_when_one_contains_the_other) {
 }
 END_TEST
 
+START_TEST(tables_that_are_no_physics_are_refused) {
+    srp_table *table;
+    static const char good[] = "-180 -90 0 0 7\n-180 0 3 0 0\n-180 90 0 0 -7\n"
+                               "-90 -90 0 0 7\n-90 0 0 2 0\n-90 90 0 0 -7\n"
+                               "0 -90 0 0 7\n0 0 -3 0 0\n0 90 0 0 -7\n"
+                               "90 -90 0 0 7\n90 0 0 -2 0\n90 90 0 0 -7\n"
+                               "180 -90 0 0 7\n180 0 3 0 0\n180 90 0 0 -7\n";
+    table = parse(good);
+    ck_assert_int_eq(cli_table_check(table, "test.spo"), CLI_DONE);
+    ((srp_response *)srp_table_node(table, 2, 1))->f.y = NAN;
+    ck_assert_int_eq(cli_table_check(table, "test.spo"), CLI_BAD_INPUT);
+    ((srp_response *)srp_table_node(table, 2, 1))->f.y = 0.0;
+    ((srp_response *)srp_table_node(table, 3, 1))->t.x = INFINITY;
+    ck_assert_int_eq(cli_table_check(table, "test.spo"), CLI_BAD_INPUT);
+    srp_table_destroy(table);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("compare");
     TCase *tc = tcase_create("compare");
@@ -158,6 +178,7 @@ int main(void) {
     tcase_add_test(tc, nodes_of_one_direction_are_averaged);
     tcase_add_test(tc, differences_are_those_worked_out_by_hand);
     tcase_add_test(tc, a_table_does_not_differ_from_itself);
+    tcase_add_test(tc, tables_that_are_no_physics_are_refused);
     tcase_add_test(tc, grids_share_nodes_when_one_contains_the_other);
     suite_add_tcase(suite, tc);
     return run_suite(suite);
