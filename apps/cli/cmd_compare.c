@@ -195,8 +195,8 @@ static int draw(const comparison *c, const cli_figure_options *figure) {
         .columns = 1,
         .rows = CLI_FIGURE_ROWS,
         .grid = {c->grid},
-        .name = {moment ? "Δt_x [m³]" : "Δf_x [m²]", moment ? "Δt_y [m³]" : "Δf_y [m²]",
-                 moment ? "Δt_z [m³]" : "Δf_z [m²]", moment ? "|Δt| [m³]" : "|Δf| [m²]"},
+        .name = {moment ? "Δt#dx#u [m³]" : "Δf#dx#u [m²]", moment ? "Δt#dy#u [m³]" : "Δf#dy#u [m²]",
+                 moment ? "Δt#dz#u [m³]" : "Δf#dz#u [m²]", moment ? "|Δt| [m³]" : "|Δf| [m²]"},
         .is_signed = {true, true, true, false}};
     for (size_t r = 0; r < CLI_FIGURE_ROWS; ++r) {
         picture.field[0][r].value = &value[r * nodes];

@@ -29,16 +29,16 @@ static const cli_option OPTIONS[FIGURE_OPTION_COUNT] = {
                            "its format.",
                        .set = cli_set_text,
                        .offset = offsetof(cli_figure_options, output)},
-    [FIGURE_MAP] = {.name = "map",
-                    .help =
-                        "Draw flat maps with contours instead of surfaces: equirectangular, and "
-                        "beside them Mollweide's, whose areas are true.",
-                    .set = cli_set_flag,
-                    .offset = offsetof(cli_figure_options, map)},
+    [FIGURE_MAP] =
+        {.name = "map",
+         .help = "Draw flat maps with contours instead of surfaces: equirectangular and, of a "
+                 "single table, also by Mollweide's projection, whose areas are true.",
+         .set = cli_set_flag,
+         .offset = offsetof(cli_figure_options, map)},
     [FIGURE_VIEW] = {.name = "view",
                      .value = "AZ,EL",
                      .help = "Where surfaces are looked at from, in degrees: turned by AZ, from EL "
-                             "above. Default: 30,35.",
+                             "above. Default: 210,35.",
                      .set = set_view,
                      .offset = offsetof(cli_figure_options, view)},
     [FIGURE_WIDTH] = {.name = "width",
@@ -52,6 +52,6 @@ static const cli_option OPTIONS[FIGURE_OPTION_COUNT] = {
 const cli_group cli_group_figure = {"Figure", OPTIONS, FIGURE_OPTION_COUNT};
 
 cli_figure_options cli_figure_options_default(void) {
-    cli_figure_options options = {.view = {30.0, 35.0}, .width = 1200};
+    cli_figure_options options = {.view = {210.0, 35.0}, .width = 1200};
     return options;
 }

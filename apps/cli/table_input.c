@@ -5,6 +5,7 @@
 #include "outputs.h"
 
 #include <stdio.h>
+#include <string.h>
 
 int cli_table_open(const char *path, srp_table **out) {
     const srp_table_format *format = cli_format_of(path);
@@ -74,7 +75,8 @@ int cli_table_open_checked(const char *path, srp_table **out) {
 void cli_table_summary(const srp_table *table, char *buffer, size_t size) {
     const srp_table_info *info = srp_table_get_info(table);
     srp_grid grid = srp_table_grid(table);
+    const char *method = strcmp(info->method, info->title) == 0 ? "" : info->method;
     snprintf(buffer, size, "%s%s%s%s%g x %g degrees", info->title,
-             info->title[0] != '\0' ? ", " : "", info->method, info->method[0] != '\0' ? ", " : "",
+             info->title[0] != '\0' ? ", " : "", method, method[0] != '\0' ? ", " : "",
              360.0 / (grid.az_count - 1), 180.0 / (grid.el_count - 1));
 }

@@ -49,7 +49,7 @@ offers 'd.plates' srp force --plates = d
 offers '' srp nocommand ''
 
 # Every option of every command.
-for command in info force table convert compare fit-nplate; do
+for command in info force table convert plot compare fit-nplate; do
     expect 0 "$command" --help
     grep -oE -- '^ {2,6}(-[a-z], )?--[a-z-]+' ../log/out | grep -oE -- '--[a-z-]+' > options
     while read -r option; do
