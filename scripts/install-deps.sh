@@ -7,11 +7,13 @@
 set -euo pipefail
 
 BUILD=(gcc g++ cmake ninja-build pkg-config libc6-dev libnetcdf-dev libxxhash-dev)
-TEST=(check libgsl-dev)
+# For plates that are fitted, and for figures; CMake goes on without them.
+BUILD+=(libgsl-dev libplplot-dev plplot-driver-cairo)
+TEST=(check libgsl-dev libpng-dev)
 CI=(clang clang-format libomp-dev)
 # Nice to have, and only tried when something else is missing: the yardstick of the benchmarks, a look
-# into tables, rendering of manual pages.
-OPTIONAL=(libembree-dev netcdf-bin mandoc)
+# into tables, rendering of manual pages, checks of SVG and PDF.
+OPTIONAL=(libembree-dev netcdf-bin mandoc libxml2-utils poppler-utils)
 # Run-time libraries of the sanitizers and the fuzzer of clang; where there is no such package (Ubuntu
 # 22.04) they come with clang itself.
 OPTIONAL+=(libclang-rt-dev)

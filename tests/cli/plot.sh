@@ -44,6 +44,16 @@ if [ -r "$SHARED/spad/One-Wing-Sat.spo" ]; then
 else
     skip 'no SPAD files in the shared data'
 fi
+# The figures of the documentation are those that are drawn now.
+expect 0 table "$MODELS/box-wing.obj" -o truth.nc --mass 850 --method raytrace --diffuse 4 --grid 64
+expect 0 table --method nplate --plates "$MODELS/box-wing.plates" -o by-hand.nc
+expect 0 plot truth.nc -o doc.png --width 800
+"$FIGURE_COMPARE" reduce "$ROOT/docs/figures/box-wing-traced.png" small.png
+"$FIGURE_COMPARE" compare doc.png small.png || fail 'docs/figures/box-wing-traced.png is not up to date'
+expect 0 compare truth.nc by-hand.nc -o doc.png --width 800
+"$FIGURE_COMPARE" reduce "$ROOT/docs/figures/box-wing-plates.png" small.png
+"$FIGURE_COMPARE" compare doc.png small.png || fail 'docs/figures/box-wing-plates.png is not up to date'
+
 # The comparison can fail: another view, another model, other colours.
 if [ "$renew" != --renew ]; then
     for other in box-wing-view sun-shield; do
