@@ -22,7 +22,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { DIRECTIONS = 6, KINDS = 5, THREADS = 2, CHUNK = 5120 };
 
@@ -183,15 +182,12 @@ static void search_embree_wave(const trial *run, size_t first, size_t count) {
 #endif
 
 static double time_search(search *way, const trial *run, size_t count, int threads) {
-    clock_t processor = clock();
     double start = bench_now();
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
     for (size_t first = 0; first < count; first += CHUNK) {
         way(run, first, count - first < CHUNK ? count - first : CHUNK);
     }
-    double took = bench_now() - start;
-    /* What one thread takes does not depend on who else is on the machine. */
-    return threads == 1 ? (double)(clock() - processor) / CLOCKS_PER_SEC : took;
+    return bench_now() - start;
 }
 
 /* ---- table ---- */

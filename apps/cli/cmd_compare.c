@@ -16,6 +16,7 @@ enum {
     COMPARE_MASS,
     COMPARE_FLUX,
     COMPARE_FAIL_ABOVE,
+    COMPARE_INTERPOLATION,
     COMPARE_JSON,
     COMPARE_OPTION_COUNT
 };
@@ -24,6 +25,7 @@ typedef struct compare_options {
     cli_given given;
     bool moment, json;
     double mass, flux, fail_above;
+    const char *interpolation;
 } compare_options;
 
 static const cli_option OPTIONS[COMPARE_OPTION_COUNT] = {
@@ -52,6 +54,15 @@ static const cli_option OPTIONS[COMPARE_OPTION_COUNT] = {
                             .set = cli_set_number,
                             .offset = offsetof(compare_options, fail_above),
                             .range = &CLI_NOT_NEGATIVE},
+    [COMPARE_INTERPOLATION] = {.name = "interpolation",
+                               .value = "NAME",
+                               .complete = CLI_COMPLETE_WORDS,
+                               .words = "bilinear bicubic spline",
+                               .help = "How the table of the coarser grid is interpolated to the "
+                                       "nodes of the finer: bilinear, bicubic or spline. Default: "
+                                       "bicubic.",
+                               .set = cli_set_text,
+                               .offset = offsetof(compare_options, interpolation)},
     [COMPARE_JSON] = {.name = "json",
                       .help = "Print JSON.",
                       .set = cli_set_flag,
@@ -65,11 +76,13 @@ typedef struct comparison {
     const compare_options *options;
     const char *path[2];
     srp_table *table[2];
-    srp_grid grid;
+    srp_interp *interp[2]; /* NULL where the table has all nodes of the grid */
+    srp_grid grid;         /* the finer of theirs */
     size_t directions;
     cli_difference difference;
     double mass; /* [kg], NAN when not known */
     srp_sunlight light;
+    const srp_interp_scheme *scheme;
 } comparison;
 
 /* ---- output ---- */
@@ -110,7 +123,9 @@ static void print_text(const comparison *c) {
     for (int k = 0; k < 2; ++k) {
         char summary[256];
         cli_table_summary(c->table[k], summary, sizeof summary);
-        printf("%c          %s: %s\n", "AB"[k], c -> path[k], summary);
+        const char *how = c->interp[k] != NULL ? c->scheme->name : "";
+        printf("%c          %s: %s%s%s\n", k == 0 ? 'A' : 'B', c->path[k], summary,
+               how[0] != '\0' ? ", interpolated: " : "", how);
     }
     printf("compared   %s [%s] from %zu directions, steps of %g x %g degrees, each by its solid "
            "angle\n",
@@ -157,20 +172,27 @@ static void write_json(const comparison *c) {
 
 /* ---- the figure ---- */
 
+/* What table t says at a node of the grid. */
+static srp_vec3 value_at(const comparison *c, int t, uint32_t i, uint32_t j) {
+    srp_vec3 force = {0.0, 0.0, 0.0}, moment = {0.0, 0.0, 0.0};
+    if (c->interp[t] != NULL) {
+        srp_status status = srp_interp_eval(c->interp[t], srp_grid_direction(c->grid, i, j), &force,
+                                            &moment, NULL, NULL);
+        return status == SRP_OK && !c->options->moment ? force : moment;
+    }
+    srp_grid own = srp_table_grid(c->table[t]);
+    const srp_response *node =
+        srp_table_node(c->table[t], i * ((own.az_count - 1) / (c->grid.az_count - 1)),
+                       j * ((own.el_count - 1) / (c->grid.el_count - 1)));
+    return c->options->moment ? node->t : node->f;
+}
+
 /* Rows of `picture` at the common nodes: x, y, z of B - A and its length. */
 static void fill_fields(const comparison *c, double *value) {
     size_t nodes = srp_grid_node_count(c->grid), k = 0;
     for (uint32_t i = 0; i < c->grid.az_count; ++i) {
         for (uint32_t j = 0; j < c->grid.el_count; ++j, ++k) {
-            srp_vec3 v[2];
-            for (int t = 0; t < 2; ++t) {
-                srp_grid own = srp_table_grid(c->table[t]);
-                const srp_response *node =
-                    srp_table_node(c->table[t], i * ((own.az_count - 1) / (c->grid.az_count - 1)),
-                                   j * ((own.el_count - 1) / (c->grid.el_count - 1)));
-                v[t] = c->options->moment ? node->t : node->f;
-            }
-            srp_vec3 d = srp_vec3_sub(v[1], v[0]);
+            srp_vec3 d = srp_vec3_sub(value_at(c, 1, i, j), value_at(c, 0, i, j));
             value[k] = d.x;
             value[nodes + k] = d.y;
             value[2 * nodes + k] = d.z;
@@ -227,26 +249,33 @@ static int same_reference(const comparison *c) {
     return CLI_DONE;
 }
 
-static int common_grid(comparison *c) {
-    srp_grid a = srp_table_grid(c->table[0]), b = srp_table_grid(c->table[1]);
-    if (cli_grid_common(a, b, &c->grid)) {
-        return CLI_DONE;
+/* The grid to compare on, and interpolants of the table that lacks its nodes. */
+static int choose_grid(comparison *c) {
+    c->grid = cli_grid_finer(srp_table_grid(c->table[0]), srp_table_grid(c->table[1]));
+    for (int k = 0; k < 2; ++k) {
+        srp_error error;
+        if (!cli_grid_contains(srp_table_grid(c->table[k]), c->grid) &&
+            srp_interp_create(c->scheme, c->table[k], &c->interp[k], &error) != SRP_OK) {
+            fprintf(stderr, "%s: cannot be interpolated: %s\n", c->path[k], error.message);
+            return error.status == SRP_NO_MEMORY ? CLI_MACHINE_FAILED : CLI_BAD_INPUT;
+        }
     }
-    fprintf(stderr,
-            "%s: steps of %g x %g degrees do not go into those of %s, %g x %g, nor these into "
-            "them: there is no grid to compare on\n",
-            c->path[1], 360.0 / (b.az_count - 1), 180.0 / (b.el_count - 1), c->path[0],
-            360.0 / (a.az_count - 1), 180.0 / (a.el_count - 1));
-    return CLI_BAD_INPUT;
+    return CLI_DONE;
+}
+
+static bool take(const comparison *c, int k, cli_samples *out) {
+    return c->interp[k] != NULL
+               ? cli_samples_interpolate(c->interp[k], c->grid, c->options->moment, out)
+               : cli_samples_take(c->table[k], c->grid, c->options->moment, out);
 }
 
 static int measure(comparison *c) {
     cli_samples a, b;
-    if (!cli_samples_take(c->table[0], c->grid, c->options->moment, &a)) {
+    if (!take(c, 0, &a)) {
         cli_say("no memory");
         return CLI_MACHINE_FAILED;
     }
-    if (!cli_samples_take(c->table[1], c->grid, c->options->moment, &b)) {
+    if (!take(c, 1, &b)) {
         cli_samples_free(&a);
         cli_say("no memory");
         return CLI_MACHINE_FAILED;
@@ -287,7 +316,7 @@ static int compare(comparison *c, const cli_figure_options *figure) {
         status = same_reference(c);
     }
     if (status == CLI_DONE) {
-        status = common_grid(c);
+        status = choose_grid(c);
     }
     if (status == CLI_DONE) {
         choose_light(c);
@@ -300,13 +329,15 @@ static int compare(comparison *c, const cli_figure_options *figure) {
         c->options->json ? write_json(c) : print_text(c);
         status = judge(c);
     }
-    srp_table_destroy(c->table[0]);
-    srp_table_destroy(c->table[1]);
+    for (int k = 0; k < 2; ++k) {
+        srp_interp_destroy(c->interp[k]);
+        srp_table_destroy(c->table[k]);
+    }
     return status;
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    compare_options options = {.mass = NAN, .flux = SRP_SOLAR_FLUX};
+    compare_options options = {.mass = NAN, .flux = SRP_SOLAR_FLUX, .interpolation = "bicubic"};
     cli_figure_options figure = cli_figure_options_default();
     void *const targets[] = {&options, &figure};
     cli_operands operands;
@@ -317,7 +348,13 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (operands.count != 2) {
         return cli_usage_error("expected two tables, A and B, found %zu", operands.count);
     }
-    comparison c = {.options = &options, .path = {operands.items[0], operands.items[1]}};
+    const srp_interp_scheme *scheme = srp_interp_find(options.interpolation);
+    if (scheme == NULL) {
+        return cli_usage_error("--interpolation %s: expected bilinear, bicubic or spline",
+                               options.interpolation);
+    }
+    comparison c = {
+        .options = &options, .scheme = scheme, .path = {operands.items[0], operands.items[1]}};
     return compare(&c, &figure);
 }
 
@@ -330,9 +367,9 @@ const cli_command cli_command_compare = {
         "Prints the difference B - A for each component, for the length of the force, and as a "
         "vector: mean square, root mean square, mean, and the largest value with its direction, in "
         "m^2, relative to the mean length of A, and in m/s^2 when the mass is known.\n\n"
-        "The steps of one table must be multiples of the steps of the other; the nodes that both "
-        "have are compared. Means are over the sphere: each direction counts by its solid angle. "
-        "With -o the difference is drawn.",
+        "Tables of different grids are compared at the nodes of the finer; the other is "
+        "interpolated, and what that misses is part of the difference. Means are over the sphere: "
+        "each direction counts by its solid angle. With -o the difference is drawn.",
     .examples = "srp compare exact.nc plates.nc\n"
                 "srp compare exact.nc plates.nc --mass 850 -o difference.png\n"
                 "srp compare before.spo after.spo --fail-above 1e-6",

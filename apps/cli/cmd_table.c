@@ -2,6 +2,7 @@
 /* srp table: the response over the whole sphere of directions, in one file or several. */
 #include "command_line.h"
 #include "commands.h"
+#include "interp_check.h"
 #include "messages.h"
 #include "model.h"
 #include "outputs.h"
@@ -25,6 +26,9 @@ enum {
     TABLE_BASIS,
     TABLE_TITLE,
     TABLE_RESTART,
+    TABLE_CHECK,
+    TABLE_MAX_ERROR,
+    TABLE_INTERPOLATION,
     TABLE_OPTION_COUNT
 };
 
@@ -34,7 +38,13 @@ typedef struct table_options {
     double step, az_step, el_step, mass, flux;
     const char *title; /* NULL = names of the model */
     bool basis, restart;
+    uint32_t check;
+    double max_error;          /* NAN = the step is given */
+    const char *interpolation; /* what max_error is about */
 } table_options;
+
+enum { CHECK_DEFAULT = 1000, CHECK_MAX = 1000000 };
+static const cli_range CHECK_RANGE = {1, CHECK_MAX, false, "a whole number from 1 to 1000000"};
 
 static const cli_option OPTIONS[TABLE_OPTION_COUNT] = {
     [TABLE_OUTPUT] = {.name = "output",
@@ -90,6 +100,30 @@ static const cli_option OPTIONS[TABLE_OPTION_COUNT] = {
                                "beginning.",
                        .set = cli_set_flag,
                        .offset = offsetof(table_options, restart)},
+    [TABLE_CHECK] = {.name = "check",
+                     .value = "N",
+                     .help = "Compute N directions between the nodes, and keep in the .nc how far "
+                             "interpolants are off there.",
+                     .set = cli_set_count,
+                     .offset = offsetof(table_options, check),
+                     .range = &CHECK_RANGE},
+    [TABLE_MAX_ERROR] = {.name = "max-error",
+                         .value = "REL",
+                         .help = "Choose the step: the largest of 30, 20, 15, 10, 7.5, 6, 5, 4, 3, "
+                                 "2.5, 2, 1.5 and 1 degrees with which interpolation is nowhere in "
+                                 "--check (default: 1000) directions off by more than REL times "
+                                 "the largest |f|.",
+                         .set = cli_set_number,
+                         .offset = offsetof(table_options, max_error),
+                         .range = &CLI_POSITIVE},
+    [TABLE_INTERPOLATION] = {.name = "interpolation",
+                             .value = "NAME",
+                             .complete = CLI_COMPLETE_WORDS,
+                             .words = "bilinear bicubic spline",
+                             .help = "What --max-error is about: bilinear, bicubic or spline. "
+                                     "Default: bilinear, as GMAT's.",
+                             .set = cli_set_text,
+                             .offset = offsetof(table_options, interpolation)},
 };
 
 static const cli_group TABLE = {"Table", OPTIONS, TABLE_OPTION_COUNT};
@@ -111,7 +145,13 @@ typedef struct table_job {
     cli_progress progress;
     double saved; /* time of the last checkpoint [s] */
     bool save_failed;
+    cli_interp_check check;
 } table_job;
+
+/* Whether the step is for us to choose; such a run keeps nothing when it is interrupted. */
+static bool chooses_step(const table_job *job) {
+    return cli_is_given(job->options->given, TABLE_MAX_ERROR);
+}
 
 /* ---- before the computing ---- */
 
@@ -121,10 +161,28 @@ static int choose_grid(const table_options *options, srp_grid *grid) {
     if (cli_is_given(options->given, TABLE_STEP) && (az || el)) {
         return cli_usage_error("--step and --%s exclude each other", az ? "az-step" : "el-step");
     }
+    if (cli_is_given(options->given, TABLE_MAX_ERROR) &&
+        (az || el || cli_is_given(options->given, TABLE_STEP))) {
+        return cli_usage_error("--max-error chooses the step: it excludes --%s", az   ? "az-step"
+                                                                                 : el ? "el-step"
+                                                                                      : "step");
+    }
     srp_error error;
     srp_status status = srp_grid_from_steps(az ? options->az_step : options->step,
                                             el ? options->el_step : options->step, grid, &error);
     return status == SRP_OK ? CLI_DONE : cli_usage_error("%s", error.message);
+}
+
+static int check_interpolation(const table_options *options) {
+    if (srp_interp_find(options->interpolation) == NULL) {
+        return cli_usage_error("--interpolation %s: expected bilinear, bicubic or spline",
+                               options->interpolation);
+    }
+    if (cli_is_given(options->given, TABLE_INTERPOLATION) &&
+        !cli_is_given(options->given, TABLE_MAX_ERROR)) {
+        return cli_usage_error("--interpolation says what --max-error is about, which is missing");
+    }
+    return CLI_DONE;
 }
 
 /* All that can be said without reading the model. */
@@ -136,6 +194,9 @@ static int check(table_job *job, const srp_method **method, srp_method_params *p
     int status = cli_method_choose(job->model, job->how, job->operands->count, method, params);
     if (status == CLI_DONE) {
         status = choose_grid(options, &job->grid);
+    }
+    if (status == CLI_DONE) {
+        status = check_interpolation(options);
     }
     if (status == CLI_DONE && options->basis && !((*method)->capabilities & SRP_METHOD_BASIS)) {
         status = cli_usage_error("method %s gives no sums per material: --basis", (*method)->name);
@@ -213,7 +274,7 @@ static int open_table(table_job *job) {
     const table_options *options = job->options;
     srp_error error;
     int status = CLI_DONE;
-    bool left = cli_system_file_exists(job->partial);
+    bool left = !chooses_step(job) && cli_system_file_exists(job->partial);
     if (left && options->restart && remove(job->partial) != 0) {
         fprintf(stderr, "%s: cannot remove the file\n", job->partial);
         return CLI_MACHINE_FAILED;
@@ -243,7 +304,7 @@ static bool save_partial(table_job *job, const srp_table *table, srp_error *erro
 static bool report(void *user, const srp_table *table, size_t done, size_t total) {
     table_job *job = user;
     double now = cli_system_seconds();
-    if (now - job->saved >= CHECKPOINT_SECONDS && done < total) {
+    if (now - job->saved >= CHECKPOINT_SECONDS && done < total && !chooses_step(job)) {
         srp_error error;
         if (!save_partial(job, table, &error) && !job->save_failed) {
             cli_progress_clear(&job->progress);
@@ -261,7 +322,7 @@ static bool report(void *user, const srp_table *table, size_t done, size_t total
 static void leave_partial(table_job *job) {
     srp_error error;
     size_t filled = srp_table_filled_count(job->table);
-    if (filled == 0) {
+    if (filled == 0 || chooses_step(job)) {
         return;
     }
     if (!save_partial(job, job->table, &error)) {
@@ -335,6 +396,65 @@ static int finish(table_job *job) {
     return CLI_DONE;
 }
 
+/* ---- the error between nodes ---- */
+
+static int begin_check(table_job *job) {
+    const table_options *options = job->options;
+    if (!cli_is_given(options->given, TABLE_CHECK) && !chooses_step(job)) {
+        return CLI_DONE;
+    }
+    return cli_interp_check_begin(&job->check, job->loaded.prepared, options->check,
+                                  job->how->seed);
+}
+
+/* A table of job->grid, checked. */
+static int compute(table_job *job) {
+    int status = open_table(job);
+    if (status == CLI_DONE) {
+        status = fill(job);
+    }
+    if (status == CLI_DONE && job->check.count > 0) {
+        status = cli_interp_check_table(&job->check, job->table);
+    }
+    return status;
+}
+
+/* Largest error by the scheme that --max-error is about, as a share of the largest |f|. */
+static double checked_error(const table_job *job) {
+    size_t count;
+    const srp_interp_scheme *const *schemes = srp_interp_list(&count);
+    const srp_interp_scheme *asked = srp_interp_find(job->options->interpolation);
+    const srp_table_check *check = &srp_table_get_info(job->table)->check;
+    for (size_t k = 0; k < count; ++k) {
+        if (schemes[k] == asked) {
+            return check->errors[k].f_max / cli_interp_largest(job->table);
+        }
+    }
+    return NAN;
+}
+
+/* From coarse to fine, the first that is good enough. */
+static int compute_by_error(table_job *job) {
+    static const double STEPS[] = {30, 20, 15, 10, 7.5, 6, 5, 4, 3, 2.5, 2, 1.5, 1};
+    const double asked = job->options->max_error;
+    for (size_t k = 0; k < sizeof STEPS / sizeof STEPS[0]; ++k) {
+        srp_error error;
+        srp_table_destroy(job->table);
+        job->table = NULL;
+        if (srp_grid_from_steps(STEPS[k], STEPS[k], &job->grid, &error) != SRP_OK) {
+            return cli_input_error(&error);
+        }
+        int status = compute(job);
+        if (status != CLI_DONE || checked_error(job) <= asked) {
+            return status;
+        }
+    }
+    cli_say("warning: with steps of 1 degree the interpolation error is still %.2g of the largest "
+            "|f|, more than %g",
+            checked_error(job), asked);
+    return CLI_DONE;
+}
+
 static int make_table(table_job *job) {
     const srp_method *method = NULL;
     srp_method_params params;
@@ -346,15 +466,16 @@ static int make_table(table_job *job) {
         status = cli_model_load(job->model, job->how, job->operands, method, &params, &job->loaded);
     }
     if (status == CLI_DONE) {
-        status = open_table(job);
+        status = begin_check(job);
     }
     if (status == CLI_DONE) {
-        status = fill(job);
+        status = chooses_step(job) ? compute_by_error(job) : compute(job);
     }
     if (status == CLI_DONE) {
         status = finish(job);
     }
     srp_table_destroy(job->table);
+    cli_interp_check_end(&job->check);
     cli_model_release(&job->loaded);
     free(job->title);
     free(job->partial);
@@ -362,7 +483,12 @@ static int make_table(table_job *job) {
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    table_options options = {.step = 5.0, .mass = NAN, .flux = SRP_SOLAR_FLUX};
+    table_options options = {.step = 5.0,
+                             .mass = NAN,
+                             .flux = SRP_SOLAR_FLUX,
+                             .check = CHECK_DEFAULT,
+                             .max_error = NAN,
+                             .interpolation = "bilinear"};
     cli_model_options model = cli_model_options_default();
     cli_method_options how = cli_method_options_default();
     void *const targets[] = {&options, &model, &how};
@@ -400,11 +526,14 @@ const cli_command cli_command_table = {
         "Everything that can be checked is checked before the computing begins. A run that is "
         "interrupted (Ctrl-C) leaves its nodes in a file FIRST_OUTPUT.partial, and so does every "
         "half minute of a long one; the same command again goes on from there and gives the same "
-        "table.",
+        "table. A run that chooses its step (--max-error) begins anew.\n\n"
+        "Between nodes a table is interpolated. --check and --max-error compare that with what the "
+        "method gives in other directions.",
     .examples = "srp table box-wing.obj -o box-wing.nc -o box-wing.spo\n"
                 "srp table box-wing.obj -o box-wing.txt --step 10 --mass 850\n"
                 "srp table bus.obj antenna.obj -o all.nc --material gold=0.6,0.1 --basis\n"
-                "srp table dish.obj -o dish.nc --method raycast --tolerance 1e-4",
+                "srp table dish.obj -o dish.nc --method raycast --tolerance 1e-4\n"
+                "srp table box-wing.obj -o box-wing.nc --max-error 0.01",
     .groups = GROUPS,
     .group_count = sizeof GROUPS / sizeof GROUPS[0],
     .run = run,

@@ -128,7 +128,7 @@ void cli_help_command(FILE *out, const cli_command *command) {
     if (takes(command, "method")) {
         print_methods(out);
     }
-    if (strcmp(command->name, "table") == 0 || strcmp(command->name, "convert") == 0) {
+    if (takes(command, "title")) {
         print_formats(out);
     }
     fputs("\nExamples:\n", out);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "outputs.h"
 
+#include "interp_check.h"
 #include "messages.h"
 #include "system.h"
 
@@ -107,4 +108,5 @@ void cli_outputs_report(const cli_list *paths, const srp_table *table) {
                     : printf(", no sampling error");
     }
     fputc('\n', stdout);
+    cli_interp_check_report(table);
 }

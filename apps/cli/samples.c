@@ -6,21 +6,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-static bool contains(srp_grid fine, srp_grid coarse) {
+bool cli_grid_contains(srp_grid fine, srp_grid coarse) {
     return (fine.az_count - 1) % (coarse.az_count - 1) == 0 &&
            (fine.el_count - 1) % (coarse.el_count - 1) == 0;
 }
 
-bool cli_grid_common(srp_grid a, srp_grid b, srp_grid *out) {
-    if (contains(a, b)) {
-        *out = b;
-        return true;
-    }
-    if (contains(b, a)) {
-        *out = a;
-        return true;
-    }
-    return false;
+srp_grid cli_grid_finer(srp_grid a, srp_grid b) {
+    return srp_grid_node_count(b) > srp_grid_node_count(a) ? b : a;
 }
 
 /* Adds a node of `grid` to sample k; returns its solid angle. */
@@ -36,18 +28,22 @@ static void add_node(const srp_table *table, srp_grid grid, uint32_t i, uint32_t
     ++*nodes;
 }
 
-/* A direction, from all nodes that it has: columns i_first to i_last, and the far end of the seam.
- */
+/* A direction of the grid, from its first node, without its weight. */
+static cli_direction direction_of(srp_grid grid, uint32_t i, uint32_t j) {
+    bool pole = j == 0 || j == grid.el_count - 1;
+    return (cli_direction){.s = srp_grid_direction(grid, i, j),
+                           .az_deg = pole ? 0.0 : srp_grid_azimuth_deg(grid, i),
+                           .el_deg = srp_grid_elevation_deg(grid, j)};
+}
+
+/* A direction, from all nodes that it has: the row of a pole, both ends of the seam. */
 static void take_direction(const srp_table *table, bool moment, uint32_t i, uint32_t j,
                            cli_samples *to) {
     srp_grid grid = to->grid;
     bool pole = j == 0 || j == grid.el_count - 1;
     size_t k = to->count++;
     uint32_t nodes = 0;
-    cli_direction *at = &to->at[k];
-    at->s = srp_grid_direction(grid, i, j);
-    at->az_deg = pole ? 0.0 : srp_grid_azimuth_deg(grid, i);
-    at->el_deg = srp_grid_elevation_deg(grid, j);
+    to->at[k] = direction_of(grid, i, j);
     if (pole) {
         for (uint32_t m = 0; m < grid.az_count; ++m) {
             add_node(table, grid, m, j, moment, to, k, &nodes);
@@ -62,24 +58,68 @@ static void take_direction(const srp_table *table, bool moment, uint32_t i, uint
     to->lit_area[k] = srp_table_get_info(table)->has_error ? to->lit_area[k] / nodes : (double)NAN;
 }
 
-bool cli_samples_take(const srp_table *table, srp_grid grid, bool moment, cli_samples *out) {
+static void interpolate_direction(const srp_interp *interp, bool moment, uint32_t i, uint32_t j,
+                                  cli_samples *to) {
+    srp_grid grid = to->grid;
+    bool pole = j == 0 || j == grid.el_count - 1;
+    size_t k = to->count++;
+    srp_vec3 f, t;
+    to->at[k] = direction_of(grid, i, j);
+    to->lit_area[k] = (double)NAN;
+    /* Every node of the seam and of the poles has its part of the cell. */
+    double cells = pole ? (double)grid.az_count - 1.0 : i == 0 ? 2.0 : 1.0;
+    uint32_t inner = pole && grid.az_count > 2 ? 1 : i;
+    to->at[k].weight = cells * srp_grid_solid_angle(grid, inner, j) / (4.0 * SRP_PI);
+    if (pole && grid.az_count == 2) {
+        to->at[k].weight *= 2.0; /* two halves of one cell */
+    }
+    if (srp_interp_eval(interp, to->at[k].s, &f, &t, NULL, NULL) == SRP_OK) {
+        to->value[k] = moment ? t : f;
+    }
+}
+
+static bool samples_make(cli_samples *made, srp_grid grid) {
     size_t room = srp_grid_node_count(grid);
-    cli_samples made = {grid, 0, calloc(room, sizeof *made.at), calloc(room, sizeof *made.value),
-                        calloc(room, sizeof *made.lit_area)};
-    if (made.at == NULL || made.value == NULL || made.lit_area == NULL) {
-        cli_samples_free(&made);
+    *made = (cli_samples){grid, 0, calloc(room, sizeof *made->at),
+                          calloc(room, sizeof *made->value), calloc(room, sizeof *made->lit_area)};
+    if (made->at == NULL || made->value == NULL || made->lit_area == NULL) {
+        cli_samples_free(made);
+        return false;
+    }
+    return true;
+}
+
+/* Exactly one of `table` and `interp` is there. */
+static bool take(const srp_table *table, const srp_interp *interp, srp_grid grid, bool moment,
+                 cli_samples *out) {
+    cli_samples made;
+    if (!samples_make(&made, grid)) {
         return false;
     }
     for (uint32_t i = 0; i + 1 < grid.az_count; ++i) {
         for (uint32_t j = 0; j < grid.el_count; ++j) {
             bool pole = j == 0 || j == grid.el_count - 1;
-            if (!pole || i == 0) {
+            if (pole && i > 0) {
+                continue;
+            }
+            if (table != NULL) {
                 take_direction(table, moment, i, j, &made);
+            } else {
+                interpolate_direction(interp, moment, i, j, &made);
             }
         }
     }
     *out = made;
     return true;
+}
+
+bool cli_samples_take(const srp_table *table, srp_grid grid, bool moment, cli_samples *out) {
+    return take(table, NULL, grid, moment, out);
+}
+
+bool cli_samples_interpolate(const srp_interp *interp, srp_grid grid, bool moment,
+                             cli_samples *out) {
+    return take(NULL, interp, grid, moment, out);
 }
 
 void cli_samples_free(cli_samples *samples) {

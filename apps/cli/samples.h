@@ -6,6 +6,7 @@
 #ifndef SRP_CLI_SAMPLES_H
 #define SRP_CLI_SAMPLES_H
 
+#include <srp/interp.h>
 #include <srp/table.h>
 
 #include <stdbool.h>
@@ -25,13 +26,17 @@ typedef struct cli_samples {
     double *lit_area;  /* (count) [m^2]; NAN where the table does not know it */
 } cli_samples;
 
-/* The largest grid whose nodes all are nodes of both, which is one of the two. False when neither
- * grid contains the other. */
-bool cli_grid_common(srp_grid a, srp_grid b, srp_grid *out);
+/* Are all nodes of `coarse` nodes of `fine`? */
+bool cli_grid_contains(srp_grid fine, srp_grid coarse);
+/* The one with more nodes. */
+srp_grid cli_grid_finer(srp_grid a, srp_grid b);
 
 /* Samples of a complete `table` at the nodes of `grid`, each of which is one of the table's.
  * `moment` chooses t instead of f. False without memory; then *out is unchanged. */
 bool cli_samples_take(const srp_table *table, srp_grid grid, bool moment, cli_samples *out);
+/* The same between the nodes. lit_area is not known. */
+bool cli_samples_interpolate(const srp_interp *interp, srp_grid grid, bool moment,
+                             cli_samples *out);
 void cli_samples_free(cli_samples *samples);
 
 /* Mean length of the values, weighted. */

@@ -2,30 +2,10 @@
 #include "table_input.h"
 
 #include "messages.h"
-#include "outputs.h"
+#include "restate.h"
 
 #include <stdio.h>
 #include <string.h>
-
-int cli_table_open(const char *path, srp_table **out) {
-    const srp_table_format *format = cli_format_of(path);
-    if (format == NULL) {
-        return CLI_BAD_USAGE;
-    }
-    srp_table *table = NULL;
-    srp_error error;
-    if (srp_table_read(format, path, &table, &error) != SRP_OK) {
-        return cli_input_error(&error);
-    }
-    if (!srp_table_is_complete(table)) {
-        fprintf(stderr, "%s: only %zu of %zu nodes are there, expected a complete table\n", path,
-                srp_table_filled_count(table), srp_grid_node_count(srp_table_grid(table)));
-        srp_table_destroy(table);
-        return CLI_BAD_INPUT;
-    }
-    *out = table;
-    return CLI_DONE;
-}
 
 int cli_table_check(const srp_table *table, const char *path) {
     srp_grid grid = srp_table_grid(table);
@@ -60,7 +40,7 @@ int cli_table_check(const srp_table *table, const char *path) {
 
 int cli_table_open_checked(const char *path, srp_table **out) {
     srp_table *table = NULL;
-    int status = cli_table_open(path, &table);
+    int status = cli_table_read(path, &table);
     if (status == CLI_DONE) {
         status = cli_table_check(table, path);
     }

@@ -5,11 +5,9 @@
 
 #include <srp/table.h>
 
-/* Reads the table `path`, which has to be complete. An exit status, said if not CLI_DONE. */
-int cli_table_open(const char *path, srp_table **out);
-
-/* The same, and refuses tables that are no physics: nodes that are not finite, nothing but zeros,
- * light that pulls. */
+/* Reads the table `path` as cli_table_read() does, and refuses tables that are no physics: nodes
+ * that are not finite, nothing but zeros, light that pulls. An exit status, said if not CLI_DONE.
+ */
 int cli_table_open_checked(const char *path, srp_table **out);
 
 /* The checks alone; `path` is for messages. */

@@ -14,7 +14,7 @@
 enum { WIDTH = SRP_BVH_WIDTH, NO_SPLIT = 0 };
 
 /* What a visit costs, in units of a node's; measured. */
-static const float NODE_COST = 1.0F, BLOCK_COST = 1.0F;
+static const float NODE_COST = 1.0F, BLOCK_COST = 1.5F;
 
 typedef struct plan {
     float cost[WIDTH - 1];    /* [i]: as at most i + 1 children */

@@ -91,8 +91,8 @@ void srp_bvh_test(const srp_bvh_path *path, const srp_bvh_triangle *triangle, ui
     }
 }
 
-bool srp_bvh_finish(const srp_bvh *bvh, const srp_bvh_path *path, const srp_bvh_best *best,
-                    srp_hit *out) {
+bool srp_bvh_finish(const srp_bvh *bvh, const srp_ray *ray, const srp_bvh_path *path,
+                    const srp_bvh_best *best, srp_hit *out) {
     if (best->facet == SRP_NO_NEIGHBOUR) {
         return false;
     }
@@ -103,9 +103,9 @@ bool srp_bvh_finish(const srp_bvh *bvh, const srp_bvh_path *path, const srp_bvh_
         /* Where the ray from the given start, not the moved one, meets the same plane: the next
          * start will be there. */
         srp_vec3 n = bvh->leaving[best->facet].normal;
-        double rate = srp_vec3_dot(n, path->direction);
+        double rate = srp_vec3_dot(n, ray->direction);
         if (rate != 0.0) {
-            out->t = fmax(out->t + srp_vec3_dot(n, path->moved) / rate, 0.0);
+            out->t = fmax(out->t + srp_vec3_dot(n, srp_bvh_start_of(bvh, ray)) / rate, 0.0);
         }
     }
     return true;

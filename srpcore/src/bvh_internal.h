@@ -60,8 +60,6 @@ typedef struct srp_bvh_path {
     double shear_x, shear_y; /* direction[kx] per_z, the same of ky */
     double sign;             /* of direction[kz] */
     double per_z;            /* 1 / direction[kz] */
-    srp_vec3 direction;
-    srp_vec3 moved; /* origin less the one that was given [m] */
     uint32_t from;
     uint32_t unseen; /* child that it need not visit */
 } srp_bvh_path;
@@ -92,28 +90,27 @@ struct srp_bvh {
 
 srp_bvh_scale srp_bvh_scale_of(const srp_scene *scene);
 
+/* Where a ray that leaves a facet is started (bvh.h), less its origin. */
+static inline srp_vec3 srp_bvh_start_of(const srp_bvh *bvh, const srp_ray *ray) {
+    const srp_bvh_leaving *leaving = &bvh->leaving[ray->from];
+    double climb = srp_vec3_dot(leaving->normal, ray->direction);
+    double lift = copysign(bvh->scale.lift, climb + 0.0); /* -0 is in front */
+    srp_vec3 inwards = srp_vec3_sub(leaving->inner, ray->origin);
+    return srp_vec3_add_scaled(srp_vec3_scale(leaving->pull, inwards), lift, leaving->normal);
+}
+
 /* The ray laid out; its float part is bvh_trace.c's. No branch for the axes: which is longest is
  * anybody's guess. */
-static inline srp_bvh_path srp_bvh_path_of(const srp_bvh *bvh, srp_vec3 origin, srp_vec3 direction,
-                                           uint32_t from) {
-    srp_vec3 moved = {0.0, 0.0, 0.0};
+static inline srp_bvh_path srp_bvh_path_of(const srp_bvh *bvh, const srp_ray *ray) {
+    srp_vec3 origin = ray->origin, direction = ray->direction;
     uint32_t unseen = SRP_BVH_NOTHING;
-    if (from != SRP_NO_NEIGHBOUR) {
-        const srp_bvh_leaving *leaving = &bvh->leaving[from];
-        double climb = srp_vec3_dot(leaving->normal, direction);
-        unseen = leaving->unseen[climb < 0.0];
-        srp_vec3 inwards = srp_vec3_sub(leaving->inner, origin);
-        double lift = copysign(bvh->scale.lift, climb + 0.0); /* -0 is in front */
-        srp_vec3 given = origin;
-        origin = srp_vec3_add_scaled(origin, leaving->pull, inwards);
-        origin = srp_vec3_add_scaled(origin, lift, leaving->normal);
-        moved = srp_vec3_sub(origin, given);
+    if (ray->from != SRP_NO_NEIGHBOUR) {
+        const srp_bvh_leaving *leaving = &bvh->leaving[ray->from];
+        unseen = leaving->unseen[srp_vec3_dot(leaving->normal, direction) < 0.0];
+        origin = srp_vec3_add(origin, srp_bvh_start_of(bvh, ray));
     }
-    srp_bvh_path path = {.origin = {origin.x, origin.y, origin.z},
-                         .direction = direction,
-                         .moved = moved,
-                         .from = from,
-                         .unseen = unseen};
+    srp_bvh_path path = {
+        .origin = {origin.x, origin.y, origin.z}, .from = ray->from, .unseen = unseen};
     const double d[5] = {direction.x, direction.y, direction.z, direction.x, direction.y};
     double x = fabs(direction.x), y = fabs(direction.y), z = fabs(direction.z);
     int y_over_x = y > x, z_over_x = z > x, z_over_y = z > y;
@@ -142,8 +139,8 @@ srp_bvh_leaving srp_bvh_leaving_of(const srp_scene *scene, const srp_bvh_scale *
                                    uint32_t facet);
 
 /* What is told of the best hit. False: none. */
-bool srp_bvh_finish(const srp_bvh *bvh, const srp_bvh_path *path, const srp_bvh_best *best,
-                    srp_hit *out);
+bool srp_bvh_finish(const srp_bvh *bvh, const srp_ray *ray, const srp_bvh_path *path,
+                    const srp_bvh_best *best, srp_hit *out);
 
 /* ---- building ---- */
 

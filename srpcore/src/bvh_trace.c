@@ -24,8 +24,8 @@ enum {
     WIDTH = SRP_BVH_WIDTH,
     STACK = (WIDTH - 1) * 100 + WIDTH, /* for the deepest tree there is */
     SHORT_STACK = 24,                  /* for nearly all rays */
-    AHEAD = 16,                        /* rays started before one whose facet is asked for */
-    LANES = 48                         /* rays on their way at a time */
+    AHEAD = 8,                         /* rays started before one whose facet is asked for */
+    LANES = 64                         /* rays on their way at a time */
 };
 
 typedef struct float_ray {
@@ -33,6 +33,7 @@ typedef struct float_ray {
     float shear_x, shear_y;
     float sheared_x, sheared_y; /* the start, sheared */
     float z, up, down;          /* start along kz; 1 and 0 when the ray goes up it, else 0 and 1 */
+    uint32_t near[3];           /* bound of a box that it meets first, of each axis */
     uint32_t unseen;            /* child that it need not visit */
     float nearest;              /* hit so far; FLT_MAX: none */
     double advance;             /* of the start along kz, unit space */
@@ -59,9 +60,10 @@ static double approach(const double o[3], const double d[3]) {
 }
 
 /* False: the ray hits nothing. */
-SRP_CLONE_PART bool aim(const srp_bvh *bvh, const srp_bvh_path *path, float_ray *ray) {
+SRP_CLONE_PART bool aim(const srp_bvh *bvh, srp_vec3 along, const srp_bvh_path *path,
+                        float_ray *ray) {
     const double centre[3] = {bvh->centre.x, bvh->centre.y, bvh->centre.z};
-    const double direction[3] = {path->direction.x, path->direction.y, path->direction.z};
+    const double direction[3] = {along.x, along.y, along.z};
     const double per_length = fabs(path->per_z);
     double o[3], d[3];
     double farthest = 0.0;
@@ -91,6 +93,7 @@ SRP_CLONE_PART bool aim(const srp_bvh *bvh, const srp_bvh_path *path, float_ray 
         d[a] = fabs(d[a]) < 0x1p-40 ? tiny : d[a];
         ray->inverse[a] = 1.0F / (float)d[a];
         ray->origin_inverse[a] = (float)o[a] * ray->inverse[a];
+        ray->near[a] = 2 * (uint32_t)a + (d[a] < 0.0);
     }
     ray->shear_x = (float)path->shear_x;
     ray->shear_y = (float)path->shear_y;
@@ -120,16 +123,16 @@ SRP_CLONE_PART uint32_t find_children(const srp_bvh_node *node, const float_ray 
     const float ix = ray->inverse[0], ox = ray->origin_inverse[0];
     const float iy = ray->inverse[1], oy = ray->origin_inverse[1];
     const float iz = ray->inverse[2], oz = ray->origin_inverse[2];
+    const float *x0 = node->bound[ray->near[0]], *x1 = node->bound[ray->near[0] ^ 1];
+    const float *y0 = node->bound[ray->near[1]], *y1 = node->bound[ray->near[1] ^ 1];
+    const float *z0 = node->bound[ray->near[2]], *z1 = node->bound[ray->near[2] ^ 1];
     const float nearest = ray->nearest;
     const uint32_t unseen = ray->unseen;
     float meets[WIDTH];
     uint32_t bits = 0;
     for (int k = 0; k < WIDTH; ++k) {
-        float x0 = node->bound[0][k] * ix - ox, x1 = node->bound[1][k] * ix - ox;
-        float y0 = node->bound[2][k] * iy - oy, y1 = node->bound[3][k] * iy - oy;
-        float z0 = node->bound[4][k] * iz - oz, z1 = node->bound[5][k] * iz - oz;
-        float in = most(most(least(x0, x1), least(y0, y1)), most(least(z0, z1), 0.0F));
-        float out = least(least(most(x0, x1), most(y0, y1)), least(most(z0, z1), nearest));
+        float in = most(most(x0[k] * ix - ox, y0[k] * iy - oy), most(z0[k] * iz - oz, 0.0F));
+        float out = least(least(x1[k] * ix - ox, y1[k] * iy - oy), least(z1[k] * iz - oz, nearest));
         meets[k] = in;
         bits |= ((in <= out) & (node->child[k] != unseen)) ? BIT[k] : 0;
     }
@@ -270,13 +273,14 @@ SRP_CLONE_PART void search_one(const srp_bvh *bvh, const srp_bvh_path *path, flo
 SRP_TARGET_CLONES
 bool srp_bvh_hit(const srp_bvh *bvh, srp_vec3 origin, srp_vec3 direction, uint32_t from,
                  srp_hit *out) {
-    srp_bvh_path path = srp_bvh_path_of(bvh, origin, direction, from);
+    const srp_ray given = {origin, direction, from};
+    srp_bvh_path path = srp_bvh_path_of(bvh, &given);
     srp_bvh_best best = {INFINITY, SRP_NO_NEIGHBOUR, false};
     float_ray ray;
-    if (aim(bvh, &path, &ray)) {
+    if (aim(bvh, direction, &path, &ray)) {
         search_one(bvh, &path, &ray, &best);
     }
-    return srp_bvh_finish(bvh, &path, &best, out);
+    return srp_bvh_finish(bvh, &given, &path, &best, out);
 }
 
 /* ---- many rays ---- */
@@ -339,7 +343,7 @@ SRP_CLONE_PART void finish_lane(stream *s, lane *own) {
     if (own->index < s->count) {
         srp_hit *hit = &s->hits[own->index];
         hit->facet = SRP_NO_NEIGHBOUR;
-        (void)srp_bvh_finish(s->bvh, &own->path, &own->best, hit);
+        (void)srp_bvh_finish(s->bvh, &s->rays[own->index], &own->path, &own->best, hit);
         own->index = SIZE_MAX;
     }
 }
@@ -352,16 +356,18 @@ SRP_CLONE_PART void start_lanes(stream *s) {
         lane *own = &s->lanes[id];
         finish_lane(s, own);
         const srp_ray *ray = &s->rays[s->next];
-        const srp_ray *ahead = ray + (s->count - s->next > AHEAD ? AHEAD : 0);
+        size_t left = s->count - s->next;
+        fetch(ray + (left > 3 * AHEAD ? 3 * AHEAD : 0), sizeof *ray);
+        const srp_ray *ahead = ray + (left > AHEAD ? AHEAD : 0);
         if (ahead->from != SRP_NO_NEIGHBOUR) {
             fetch(&s->bvh->leaving[ahead->from], sizeof *s->bvh->leaving);
         }
         own->index = s->next++;
-        own->path = srp_bvh_path_of(s->bvh, ray->origin, ray->direction, ray->from);
+        own->path = srp_bvh_path_of(s->bvh, ray);
         own->best = (srp_bvh_best){INFINITY, SRP_NO_NEIGHBOUR, false};
         own->stack[0] = 0;
         uint64_t *top = own->stack + 1;
-        if (aim(s->bvh, &own->path, &own->ray)) {
+        if (aim(s->bvh, ray->direction, &own->path, &own->ray)) {
             top = visit_node(&s->bvh->nodes[0], &own->ray, top);
         }
         own->key = *--top;

@@ -9,7 +9,7 @@
 
 /* Samples that are drawn at once, and samples of a band of rows: 16 bytes each, so that a band
  * stays in the second-level cache. */
-enum { LANES = 8, BAND_CELLS = 16384 };
+enum { LANES = 4, BAND_CELLS = 16384 };
 
 #define END_OF_LIST UINT32_MAX
 
@@ -161,7 +161,7 @@ typedef struct raster_band {
  * a few vector instructions with masked or blended stores. */
 static inline void draw_lanes(double *restrict depth, uint64_t *restrict marks, double left,
                               double height, double slope, double tie, uint64_t mark) {
-    static const double LANE[LANES] = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+    static const double LANE[LANES] = {0.0, 1.0, 2.0, 3.0};
 #pragma GCC unroll 1
     for (int k = 0; k < LANES; ++k) {
         double here = height + slope * LANE[k];

@@ -83,15 +83,24 @@ static void hash_shape(XXH3_state_t *state, const srp_scene *scene) {
     hash_double(state, scene->area);
 }
 
-static void hash_optics(XXH3_state_t *state, const srp_scene *scene) {
-    for (size_t i = 0; i < scene->material_count; ++i) {
-        uint8_t one_sided = scene->optics[i].one_sided;
-        XXH3_128bits_update(state, scene->material_names[i], strlen(scene->material_names[i]) + 1);
-        hash_double(state, scene->optics[i].rho_s);
-        hash_double(state, scene->optics[i].rho_d);
+bool srp_optics_hash(size_t count, char *const *names, const srp_optics *optics, double cr,
+                     char out[33]) {
+    XXH3_state_t *state = XXH3_createState();
+    if (state == NULL) {
+        return false;
+    }
+    XXH3_128bits_reset(state);
+    for (size_t i = 0; i < count; ++i) {
+        uint8_t one_sided = optics[i].one_sided;
+        XXH3_128bits_update(state, names[i], strlen(names[i]) + 1);
+        hash_double(state, optics[i].rho_s);
+        hash_double(state, optics[i].rho_d);
         XXH3_128bits_update(state, &one_sided, sizeof one_sided);
     }
-    hash_double(state, scene->cr);
+    hash_double(state, cr);
+    hash_text(state, out);
+    XXH3_freeState(state);
+    return true;
 }
 
 static bool hash_scene(srp_scene *scene) {
@@ -102,11 +111,9 @@ static bool hash_scene(srp_scene *scene) {
     XXH3_128bits_reset(state);
     hash_shape(state, scene);
     hash_text(state, scene->shape_hash);
-    XXH3_128bits_reset(state);
-    hash_optics(state, scene);
-    hash_text(state, scene->optics_hash);
     XXH3_freeState(state);
-    return true;
+    return srp_optics_hash(scene->material_count, scene->material_names, scene->optics, scene->cr,
+                           scene->optics_hash);
 }
 
 /* ---- meshes ---- */

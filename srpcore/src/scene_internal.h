@@ -49,4 +49,9 @@ struct srp_scene {
     double cr, area;
 };
 
+/* The hash of optics, as srp_scene_optics_hash() gives it: of `count` materials, and of the
+ * coefficient of a sphere (0 for others). False without memory. */
+bool srp_optics_hash(size_t count, char *const *names, const srp_optics *optics, double cr,
+                     char out[33]);
+
 #endif

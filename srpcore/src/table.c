@@ -29,9 +29,15 @@ srp_status srp_table_set_text(const char **slot, const char *text, size_t size, 
 }
 
 static const char **text_slot(srp_table_info *info, size_t index) {
-    const char **slots[] = {&info->title,       &info->method,      &info->device,
-                            &info->shape_hash,  &info->optics_hash, &info->version,
-                            &info->command_line};
+    const char **slots[] = {&info->title,
+                            &info->method,
+                            &info->device,
+                            &info->shape_hash,
+                            &info->optics_hash,
+                            &info->version,
+                            &info->command_line,
+                            &info->traced_optics_hash,
+                            &info->traced_command_line};
     return index < sizeof slots / sizeof slots[0] ? slots[index] : NULL;
 }
 
@@ -235,6 +241,10 @@ srp_status srp_table_describe(srp_table *table, const char *title, const char *c
     return status;
 }
 
+void srp_table_set_check(srp_table *table, const srp_table_check *check) {
+    table->info.check = *check;
+}
+
 /* ---- Asking --------------------------------------------------------------------------------- */
 
 srp_grid srp_table_grid(const srp_table *table) {
@@ -401,6 +411,12 @@ srp_status srp_table_check_origin(const srp_table *table, const srp_prepared *pr
         return srp_fail(error, SRP_MISMATCH,
                         "the table's grid has %u x %u nodes, asked for are %u x %u",
                         table->grid.az_count, table->grid.el_count, grid.az_count, grid.el_count);
+    }
+    if (info->traced_optics_hash[0] != '\0') {
+        return srp_fail(error, SRP_MISMATCH,
+                        "the table was given other optics than it was traced with (hash '%s'): "
+                        "only a traced one can be filled further",
+                        info->traced_optics_hash);
     }
     for (size_t k = 0; k < sizeof texts / sizeof texts[0]; ++k) {
         srp_status status = same_text(texts[k].what, texts[k].in_table, texts[k].asked, error);

@@ -59,6 +59,17 @@ static void mix_params(XXH3_state_t *state, const srp_method_params *params) {
     mix_u64(state, params->mirrored_beams);
 }
 
+static void mix_check(XXH3_state_t *state, const srp_table_check *check) {
+    mix_u64(state, check->count);
+    mix_u64(state, check->seed);
+    for (size_t k = 0; k < SRP_TABLE_SCHEMES; ++k) {
+        mix_double(state, check->errors[k].f_mean);
+        mix_double(state, check->errors[k].f_max);
+        mix_double(state, check->errors[k].t_mean);
+        mix_double(state, check->errors[k].t_max);
+    }
+}
+
 static void mix_head(XXH3_state_t *state, const srp_table *table) {
     const srp_table_info *info = &table->info;
     mix_u64(state, table->grid.az_count);
@@ -79,12 +90,21 @@ static void mix_head(XXH3_state_t *state, const srp_table *table) {
     mix_u64(state, info->has_moment);
     mix_u64(state, info->has_basis);
     mix_u64(state, info->has_bounce);
+    if (info->check.count > 0) {
+        mix_check(state, &info->check);
+    }
     mix_u64(state, table->material_count);
     for (size_t m = 0; m < table->material_count; ++m) {
         mix_text(state, table->material_names[m]);
         mix_double(state, table->material_optics[m].rho_s);
         mix_double(state, table->material_optics[m].rho_d);
         mix_u64(state, table->material_optics[m].one_sided);
+    }
+    /* Only where they say something, so that traced tables keep the checksum that they have. */
+    if (info->traced_optics_hash[0] != '\0') {
+        mix_text(state, info->traced_optics_hash);
+        mix_text(state, info->traced_command_line);
+        mix_u64(state, info->bounce_kept);
     }
 }
 

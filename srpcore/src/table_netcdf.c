@@ -43,7 +43,12 @@ const srp_text_attribute srp_table_texts[SRP_TEXT_ATTRIBUTE_COUNT] = {
     {"optics_hash", INFO(optics_hash)},
     {"library_version", INFO(version)},
     {"command_line", INFO(command_line)},
+    {"traced_optics_hash", INFO(traced_optics_hash)},
+    {"traced_command_line", INFO(traced_command_line)},
 };
+
+const char *const srp_table_check_names[SRP_TABLE_SCHEMES] = {
+    "interpolation_error_bilinear", "interpolation_error_bicubic", "interpolation_error_spline"};
 
 bool srp_column_is_in(const srp_column *column, const srp_table *table) {
     const srp_table_info *info = &table->info;

@@ -20,6 +20,9 @@
 enum { SRP_TABLE_FORMAT_VERSION = 1 };
 #define SRP_TABLE_CHECKSUM_PREFIX "xxh3-128 "
 
+/* Of tables with a kept bounce part: the hash of the optics that it is of. */
+#define SRP_TABLE_BOUNCE_OPTICS "bounce_optics_hash"
+
 #define SRP_TABLE_TRAILER "\n#srpcore table ends; xxh3-128 "
 enum { SRP_TABLE_TRAILER_SIZE = sizeof SRP_TABLE_TRAILER - 1 + 32 + 1 };
 
@@ -61,8 +64,11 @@ typedef struct srp_text_attribute {
     size_t offset; /* of the const char * in srp_table_info */
 } srp_text_attribute;
 
-enum { SRP_TEXT_ATTRIBUTE_COUNT = 7 };
+enum { SRP_TEXT_ATTRIBUTE_COUNT = 9 };
 extern const srp_text_attribute srp_table_texts[SRP_TEXT_ATTRIBUTE_COUNT];
+
+/* Attributes that hold the errors of srp_table_check, in the order of its schemes. */
+extern const char *const srp_table_check_names[SRP_TABLE_SCHEMES];
 
 srp_status srp_table_netcdf_write(const srp_table *table, const char *path, srp_error *error);
 srp_status srp_table_netcdf_read(const char *path, srp_table **out, srp_error *error);

@@ -139,6 +139,34 @@ static void check_format(source *in) {
     }
 }
 
+static bool get_seed(source *in, const char *name, uint64_t *seed) {
+    size_t length;
+    unsigned long long read = 0;
+    if (!has_attribute(in, name, NC_UINT64, 1, &length)) {
+        return false;
+    }
+    step(in, name, nc_get_att_ulonglong(in->ncid, NC_GLOBAL, name, &read));
+    *seed = read;
+    return is_fine(in);
+}
+
+/* Errors are there all together, or none. */
+static void get_check(source *in, srp_table_check *check) {
+    if (!get_uint(in, "check_directions", &check->count)) {
+        return;
+    }
+    if (!get_seed(in, "check_seed", &check->seed)) {
+        refuse(in, "attribute 'check_seed'", "is missing");
+    }
+    for (size_t k = 0; k < SRP_TABLE_SCHEMES && is_fine(in); ++k) {
+        double e[4] = {0.0, 0.0, 0.0, 0.0};
+        if (!get_doubles(in, srp_table_check_names[k], 4, e)) {
+            refuse(in, srp_table_check_names[k], "is missing");
+        }
+        check->errors[k] = (srp_table_error){e[0], e[1], e[2], e[3]};
+    }
+}
+
 static void get_lattice(source *in) {
     srp_method_params *params = &in->table->info.params;
     srp_lattice_params *lattice = &params->lattice;
@@ -159,12 +187,7 @@ static void get_lattice(source *in) {
         get_uint(in, "lattice_samples", &lattice->samples);
     }
     free(kind);
-    size_t length;
-    if (has_attribute(in, "seed", NC_UINT64, 1, &length)) {
-        unsigned long long seed = 0;
-        step(in, "seed", nc_get_att_ulonglong(in->ncid, NC_GLOBAL, "seed", &seed));
-        params->seed = seed;
-    }
+    get_seed(in, "seed", &params->seed);
     if (get_doubles(in, "tolerance", 1, &params->tolerance)) {
         get_uint(in, "max_samples", &params->max_samples);
     }
@@ -195,6 +218,7 @@ static void get_origin(source *in) {
         }
         free(text);
     }
+    get_check(in, &info->check);
     double reference[3] = {0.0, 0.0, 0.0};
     get_doubles(in, "reference_point_m", 3, reference);
     info->params.reference = srp_vec3_make(reference[0], reference[1], reference[2]);
@@ -425,6 +449,21 @@ static void make_table(source *in) {
     }
 }
 
+/* Whether the bounce part was kept as traced. */
+static void get_kept_bounce(source *in) {
+    srp_table_info *info = &in->table->info;
+    char *hash = get_text(in, SRP_TABLE_BOUNCE_OPTICS);
+    if (hash == NULL) {
+        return;
+    }
+    info->bounce_kept = hash[0] != '\0';
+    if (info->bounce_kept && (!info->has_bounce || strcmp(hash, info->traced_optics_hash) != 0)) {
+        refuse(in, "attribute '" SRP_TABLE_BOUNCE_OPTICS "'",
+               "does not fit: there is no bounce part, or the traced optics are others");
+    }
+    free(hash);
+}
+
 static void get_content(source *in) {
     srp_table *table = in->table;
     get_origin(in);
@@ -434,6 +473,7 @@ static void get_content(source *in) {
     table->info.has_moment = has_variable(in, "moment");
     table->info.has_error = has_variable(in, "force_error");
     table->info.has_bounce = has_variable(in, "force_bounce");
+    get_kept_bounce(in);
     for (size_t k = 0; k < SRP_COLUMN_COUNT && is_fine(in); ++k) {
         if (srp_column_is_in(&srp_table_columns[k], table)) {
             get_column(in, &srp_table_columns[k]);

@@ -85,6 +85,12 @@ static void put_uint(sink *out, const char *name, unsigned value) {
     }
 }
 
+static void put_seed(sink *out, const char *name, unsigned long long seed) {
+    if (is_fine(out)) {
+        step(out, name, nc_put_att_ulonglong(out->ncid, NC_GLOBAL, name, NC_UINT64, 1, &seed));
+    }
+}
+
 static void put_lattice(sink *out, const srp_method_params *params) {
     const srp_lattice_params *lattice = &params->lattice;
     if (lattice->kind == SRP_LATTICE_WINDOW) {
@@ -100,13 +106,21 @@ static void put_lattice(sink *out, const srp_method_params *params) {
             put_doubles(out, "lattice_cell_m", 1, &lattice->pixel);
         }
     }
-    unsigned long long seed = params->seed;
-    if (is_fine(out)) {
-        step(out, "seed", nc_put_att_ulonglong(out->ncid, NC_GLOBAL, "seed", NC_UINT64, 1, &seed));
-    }
+    put_seed(out, "seed", params->seed);
     if (isfinite(params->tolerance)) {
         put_doubles(out, "tolerance", 1, &params->tolerance);
         put_uint(out, "max_samples", params->max_samples);
+    }
+}
+
+/* Mean and largest error of f, mean and largest of t. */
+static void put_check(sink *out, const srp_table_check *check) {
+    put_uint(out, "check_directions", check->count);
+    put_seed(out, "check_seed", check->seed);
+    for (size_t k = 0; k < SRP_TABLE_SCHEMES; ++k) {
+        const srp_table_error *e = &check->errors[k];
+        put_doubles(out, srp_table_check_names[k], 4,
+                    (double[]){e->f_mean, e->f_max, e->t_mean, e->t_max});
     }
 }
 
@@ -119,6 +133,9 @@ static void put_origin(sink *out) {
         const char *text;
         memcpy(&text, (const char *)info + srp_table_texts[k].offset, sizeof text);
         put_text(out, NC_GLOBAL, srp_table_texts[k].name, text);
+    }
+    if (info->bounce_kept) {
+        put_text(out, NC_GLOBAL, SRP_TABLE_BOUNCE_OPTICS, info->traced_optics_hash);
     }
     const srp_vec3 reference = info->params.reference;
     put_doubles(out, "reference_point_m", 3, (double[]){reference.x, reference.y, reference.z});
@@ -134,6 +151,9 @@ static void put_origin(sink *out) {
     put_doubles(out, "astronomical_unit_m", 1, &info->light.au);
     if (!isnan(info->mass)) {
         put_doubles(out, "mass_kg", 1, &info->mass);
+    }
+    if (info->check.count > 0) {
+        put_check(out, &info->check);
     }
     put_text(out, NC_GLOBAL, "comment",
              "Directions are those from the spacecraft to the Sun in body axes, "

@@ -58,6 +58,12 @@ static void print_header(srp_sheet *sheet, const srp_table *table) {
         print_value(sheet, "Method", text);
         print_value(sheet, "Shape hash", info->shape_hash);
         print_value(sheet, "Optics hash", info->optics_hash);
+        if (info->traced_optics_hash[0] != '\0') {
+            print_value(sheet, "Traced optics hash", info->traced_optics_hash);
+        }
+        if (info->bounce_kept) {
+            print_value(sheet, "Reflected light", "as traced, not of these optics");
+        }
     }
     srp_sheet_print(sheet, "\n");
     print_motion(sheet, 1, "Azimuth", 360.0, table->grid.az_count);

@@ -50,6 +50,12 @@ static void print_head(srp_sheet *sheet, const srp_table *table) {
         print_text(sheet, "method", info->method);
         print_text(sheet, "shape hash", info->shape_hash);
         print_text(sheet, "optics hash", info->optics_hash);
+        if (info->traced_optics_hash[0] != '\0') {
+            print_text(sheet, "traced optics hash", info->traced_optics_hash);
+        }
+        if (info->bounce_kept) {
+            print_text(sheet, "reflected light", "as traced, not of these optics");
+        }
     }
     srp_sheet_print(sheet, "# %s: %.17g\n", KEY_MASS, info->mass);
     srp_sheet_print(sheet, "# %s: %.17g\n", KEY_FLUX, info->light.flux);

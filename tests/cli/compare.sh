@@ -32,10 +32,22 @@ done
 expect 0 compare exact.nc exact.spo
 within "$(value vector 5)" 0 0 || fail 'the .spo is not the .nc'
 expect 0 compare exact.nc exact.txt --fail-above 1e-14
-expect 0 compare exact.nc fine.nc --fail-above 0
-prints 'steps of 20 x 20 degrees'
-expect 0 compare fine.nc exact.nc --fail-above 0
-prints '146 directions'
+# Other grids: at the nodes of the finer, the coarser is interpolated.
+expect 0 compare exact.nc fine.nc --fail-above 0.15
+prints 'exact, 20 x 20 degrees, interpolated: bicubic'
+prints 'from 614 directions, steps of 10 x 10 degrees'
+prints_not '10 x 10 degrees, interpolated'
+bicubic=$(value vector 3)
+expect 0 compare fine.nc exact.nc --interpolation bilinear
+prints 'from 614 directions'
+within "$bicubic" 1e-3 "$(value vector 3)" || fail 'bicubic is not better than bilinear'
+expect 0 compare exact.nc odd.nc --interpolation spline
+prints 'from 422 directions, steps of 12 x 12 degrees'
+expect 2 compare exact.nc fine.nc --interpolation cubic
+says '--interpolation cubic: expected bilinear, bicubic or spline'
+expect 0 table "$MODELS/box-wing.obj" -o rough.nc --step 180
+expect 1 compare rough.nc exact.nc
+says 'rough.nc: cannot be interpolated'
 
 # Orders of magnitude of AAS 20-481, Table 5: mass 1 kg, cannonball 2.5e-4, N-plate 5.9e-6 m/s^2.
 expect 0 compare exact.nc ball.nc --mass 1 --json
@@ -71,8 +83,6 @@ prints 'vector'
 says 'of the mean length, more than 0.01'
 
 # Refusals.
-expect 1 compare exact.nc odd.nc
-says 'there is no grid to compare on'
 expect 1 compare exact.nc none.nc
 says 'none.nc'
 expect 2 compare exact.nc

@@ -31,7 +31,7 @@ offers 'compare convert' srp c
 offers 'table' srp help t
 offers '--distance-au' srp force --dis
 offers '--step' srp table --st
-offers '--mass --material --max-grid --method' srp table --m
+offers '--mass --material --max-error --max-grid --method' srp table --m
 offers '--help' srp convert --he
 offers 'cannonball' srp force --method ca
 offers 'cannonball' srp force --method = ca
@@ -43,13 +43,16 @@ touch a.obj b.obj c.nc d.plates
 offers 'a.obj b.obj sub' srp info ''
 offers 'a.obj' srp table a
 offers 'c.nc' srp convert c
+offers 'c.nc sub' srp reoptic ''
+offers '--mass --material --mtl' srp reoptic --m
+offers 'a.obj b.obj c.nc d.plates srp.bash sub' srp reoptic --mtl ''
 offers 'd.plates' srp force --plates d
 offers 'a.obj b.obj c.nc d.plates srp.bash sub' srp table -o ''
 offers 'd.plates' srp force --plates = d
 offers '' srp nocommand ''
 
 # Every option of every command.
-for command in info force table convert plot compare fit-nplate; do
+for command in info force table reoptic convert plot compare fit-nplate; do
     expect 0 "$command" --help
     grep -oE -- '^ {2,6}(-[a-z], )?--[a-z-]+' ../log/out | grep -oE -- '--[a-z-]+' > options
     while read -r option; do

@@ -42,7 +42,24 @@ expect 0 table "$cube" -o mesh.spo --step 45
 paste plates.spo mesh.spo | awk 'NF == 22 { d = $3 - $14; if (d > 1e-12 || d < -1e-12) exit 1 }' ||
     fail 'the cube and its plates differ'
 expect 0 table "$cube" "$MODELS/icosphere-80.obj" -o both.nc --step 45 --basis
-expect 0 table "$cube" -o ref.spo --step 45 --reference 0,0.5,0 --flux 1400
+expect 0 table "$cube" -o ref.spo -o ref.nc --step 45 --reference 0,0.5,0 --flux 1400
+# About c instead of the origin: t' = t - c x f, in the torque columns and in the head.
+paste mesh.spo ref.spo | awk '
+    NF == 22 && $1 + 0 == $1 {
+        off = $18 - ($7 - 0.5 * $5); if (off < 0) off = -off
+        mid = $19 - $8; if (mid < 0) mid = -mid
+        end = $20 - ($9 + 0.5 * $3); if (end < 0) end = -end
+        if (off + mid + end > 1e-12) exit 1
+        moved += ($18 - $7) ^ 2; rows++
+    }
+    END { if (rows != 45 || moved < 1) exit 1 }' || fail 'the torque is not about the reference point'
+grep -q '^Center of Mass *: (0, 0.5, 0)' ref.spo || fail 'the .spo lacks the reference point'
+if command -v ncdump > /dev/null; then
+    ncdump -h ref.nc > ../log/out
+    prints 'reference_point_m = 0., 0.5, 0.'
+else
+    skip 'no ncdump'
+fi
 
 # Raycast.
 expect 0 table "$MODELS/box-wing.obj" -o r.nc --step 30 --method raycast --grid 64 --seed 3

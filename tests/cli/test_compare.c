@@ -2,11 +2,19 @@
 /* Samples and differences of tables, against numbers that were worked out by hand. */
 #include "command.h"
 #include "difference.h"
+#include "restate.h"
 #include "samples.h"
 #include "srp_check.h"
 #include "table_input.h"
 
 #include <string.h>
+
+/* Of the command line's own, which these tests do not read with. */
+int cli_table_read(const char *path, srp_table **out) {
+    (void)path;
+    (void)out;
+    return CLI_MACHINE_FAILED;
+}
 
 /* Six directions: the poles, and four azimuths on the equator. A row for each node of 90 degrees.
  */
@@ -140,16 +148,47 @@ START_TEST(a_table_does_not_differ_from_itself) {
 }
 END_TEST
 
-START_TEST(grids_share_nodes_when_one_contains_the_other) {
-    const srp_grid fine = {73, 37}, coarse = {19, 10}, other = {49, 25}, mixed = {145, 10};
-    srp_grid common = {0, 0};
-    ck_assert(cli_grid_common(fine, coarse, &common));
-    ck_assert(common.az_count == 19 && common.el_count == 10);
-    ck_assert(cli_grid_common(coarse, fine, &common) && common.az_count == 19);
-    ck_assert(!cli_grid_common(fine, other, &common));
-    ck_assert(
-        !cli_grid_common(fine, mixed, &common)); /* finer in one angle, coarser in the other */
-    ck_assert(common.az_count == 19);
+START_TEST(the_finer_grid_is_found) {
+    const srp_grid fine = {73, 37}, coarse = {19, 10}, mixed = {145, 10};
+    ck_assert(cli_grid_contains(fine, coarse) && !cli_grid_contains(coarse, fine));
+    ck_assert(cli_grid_contains(fine, fine));
+    ck_assert(!cli_grid_contains(fine, mixed)); /* finer in one angle, coarser in the other */
+    ck_assert_uint_eq(cli_grid_finer(fine, coarse).az_count, 73);
+    ck_assert_uint_eq(cli_grid_finer(coarse, fine).az_count, 73);
+    ck_assert_uint_eq(cli_grid_finer(mixed, fine).az_count, 73);
+}
+END_TEST
+
+/* A cannonball's force is reproduced by interpolation: coarse and fine are one. */
+START_TEST(coarser_tables_are_interpolated) {
+    static const double area = 7.25;
+    srp_scene *scene;
+    srp_prepared *prepared;
+    srp_table *table;
+    srp_error error;
+    srp_interp *interp;
+    srp_grid coarse = {13, 7}, fine = {49, 37};
+    srp_method_params params = srp_method_params_default();
+    params.threads = 1;
+    assert_ok(srp_scene_from_sphere(1.0, area, &scene, &error), error);
+    assert_ok(srp_method_prepare(&srp_method_cannonball, scene, &params, &prepared, &error), error);
+    assert_ok(srp_table_create(prepared, coarse, false, &table, &error), error);
+    assert_ok(srp_table_fill(table, prepared, NULL, &error), error);
+    assert_ok(srp_interp_create(&srp_interp_bicubic, table, &interp, &error), error);
+    cli_samples samples;
+    ck_assert(cli_samples_interpolate(interp, fine, false, &samples));
+    ck_assert_uint_eq(samples.count, 48 * 35 + 2);
+    double sum = 0.0;
+    for (size_t k = 0; k < samples.count; ++k) {
+        assert_vec3_close(samples.value[k], srp_vec3_scale(-area, samples.at[k].s), 1e-13, 0.0);
+        sum += samples.at[k].weight;
+    }
+    assert_close(sum, 1.0, 1e-13, 0.0);
+    cli_samples_free(&samples);
+    srp_interp_destroy(interp);
+    srp_table_destroy(table);
+    srp_prepared_release(prepared);
+    srp_scene_destroy(scene);
 }
 END_TEST
 
@@ -179,7 +218,8 @@ int main(void) {
     tcase_add_test(tc, differences_are_those_worked_out_by_hand);
     tcase_add_test(tc, a_table_does_not_differ_from_itself);
     tcase_add_test(tc, tables_that_are_no_physics_are_refused);
-    tcase_add_test(tc, grids_share_nodes_when_one_contains_the_other);
+    tcase_add_test(tc, the_finer_grid_is_found);
+    tcase_add_test(tc, coarser_tables_are_interpolated);
     suite_add_tcase(suite, tc);
     return run_suite(suite);
 }

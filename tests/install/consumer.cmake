@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the build to a scratch prefix and builds a project outside the tree against it, through
 # the CMake package and through pkg-config.
-#   cmake -D BUILD=... -D SOURCE=... -D SCRATCH=... -D CC=... -D CXX=... -D PKG_CONFIG=... -P ...
+#   cmake -D BUILD=... -D SOURCE=... -D EXAMPLE=... -D MODEL=... -D SCRATCH=... -D CC=... -D CXX=... -D PKG_CONFIG=... -P ...
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -16,12 +16,14 @@ set(prefix ${SCRATCH}/prefix)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${SCRATCH}/cmake -G Ninja -D CMAKE_C_COMPILER=${CC}
-    -D CMAKE_CXX_COMPILER=${CXX} -D CMAKE_PREFIX_PATH=${prefix})
+    -D CMAKE_CXX_COMPILER=${CXX} -D CMAKE_PREFIX_PATH=${prefix} -D EXAMPLE=${EXAMPLE})
 run(${CMAKE_COMMAND} --build ${SCRATCH}/cmake)
 foreach(program consumer_shared consumer_static consumer_cxx)
   run(${SCRATCH}/cmake/${program})
   message(STATUS "${program}: ${output}")
 endforeach()
+run(${SCRATCH}/cmake/example ${MODEL})
+set(example_output "${output}")
 
 file(GLOB_RECURSE pc ${prefix}/srpcore.pc)
 get_filename_component(pc_directory ${pc} DIRECTORY)
@@ -33,3 +35,9 @@ separate_arguments(flags UNIX_COMMAND "${output}")
 run(${CC} -std=c11 -o ${SCRATCH}/consumer_pc ${SOURCE}/consumer.c ${flags} -lm)
 run(${SCRATCH}/consumer_pc)
 message(STATUS "consumer_pc: ${output}")
+run(${CC} -std=c11 -o ${SCRATCH}/example_pc ${EXAMPLE} ${flags} -lm)
+run(${SCRATCH}/example_pc ${MODEL})
+if(NOT output STREQUAL example_output OR NOT output MATCHES " 180\\.0   0\\.0000 ")
+  message(FATAL_ERROR "the example says ${output}through pkg-config, ${example_output}through CMake")
+endif()
+message(STATUS "example:\n${output}")

@@ -147,6 +147,9 @@ static void assert_same_info(const srp_table_info *a, const srp_table_info *b) {
     ck_assert_str_eq(a->optics_hash, b->optics_hash);
     ck_assert_str_eq(a->version, b->version);
     ck_assert_str_eq(a->command_line, b->command_line);
+    ck_assert_str_eq(a->traced_optics_hash, b->traced_optics_hash);
+    ck_assert_str_eq(a->traced_command_line, b->traced_command_line);
+    ck_assert(a->bounce_kept == b->bounce_kept);
     ck_assert(a->params.reference.x == b->params.reference.x);
     ck_assert(a->params.reference.y == b->params.reference.y);
     ck_assert(a->params.reference.z == b->params.reference.z);

@@ -10,6 +10,7 @@
 #include "shapes.h"
 #include "srp_check.h"
 
+#include <srp/interp.h>
 #include <srp/method.h>
 #include <srp/scene.h>
 #include <srp/table.h>
@@ -72,7 +73,7 @@ void __wrap_free(void *old) {
 
 /* What there is before memory runs out. */
 static srp_mesh *box, *corner;
-static srp_materials *materials;
+static srp_materials *materials, *gold_alone;
 static srp_scene *scene;
 static srp_prepared *prepared; /* raycast on scene */
 static srp_table *filled;
@@ -130,6 +131,9 @@ static void set_up(void) {
     corner = shape_mesh(v, 4, t, 2, "silver");
     assert_ok(srp_materials_create(&materials, &error), error);
     assert_ok(srp_materials_set(materials, "gold", (srp_optics){0.5, 0.25, false}, false, &error),
+              error);
+    assert_ok(srp_materials_create(&gold_alone, &error), error);
+    assert_ok(srp_materials_set(gold_alone, "gold", (srp_optics){0.1, 0.2, false}, true, &error),
               error);
     srp_mesh *both = shape_box(srp_vec3_make(-1, -1.5, -2), srp_vec3_make(1.25, 1, 3), "gold");
     shape_join(both, shape_box(srp_vec3_make(2, -1.5, -2), srp_vec3_make(2.25, 4, 3), "silver"));
@@ -324,6 +328,20 @@ static srp_status try_table_fill(srp_error *error) {
     return status;
 }
 
+static srp_status try_table_reoptic(srp_error *error) {
+    srp_table *table = (srp_table *)NOT_TOUCHED, *again = (srp_table *)NOT_TOUCHED;
+    srp_status status = srp_table_reoptic(filled, gold_alone, false, &table, error);
+    if (status != SRP_OK) {
+        return table == (srp_table *)NOT_TOUCHED ? status : SRP_MISMATCH;
+    }
+    status = srp_table_reoptic(table, gold_alone, false, &again, error);
+    if (status == SRP_OK) {
+        srp_table_destroy(again);
+    }
+    srp_table_destroy(table);
+    return status == SRP_OK || again == (srp_table *)NOT_TOUCHED ? status : SRP_MISMATCH;
+}
+
 /* There and back through a file. */
 static srp_status try_format(const srp_table_format *format, srp_error *error) {
     char path[64];
@@ -346,6 +364,15 @@ static srp_status try_format(const srp_table_format *format, srp_error *error) {
 TRY_FORMAT(netcdf)
 TRY_FORMAT(spo)
 TRY_FORMAT(txt)
+
+static srp_status try_interp(srp_error *error) {
+    srp_interp *interp = (srp_interp *)NOT_TOUCHED;
+    srp_status status = srp_interp_create(&srp_interp_spline, filled, &interp, error);
+    if (status == SRP_OK) {
+        srp_interp_destroy(interp);
+    }
+    return status == SRP_OK || interp == (srp_interp *)NOT_TOUCHED ? status : SRP_MISMATCH;
+}
 
 static srp_status try_bvh(srp_error *error) {
     srp_bvh *bvh = (srp_bvh *)NOT_TOUCHED;
@@ -380,6 +407,8 @@ static const struct {
     {"bvh", try_bvh},
     {"raytrace", try_raytrace},
     {"table_fill", try_table_fill},
+    {"table_reoptic", try_table_reoptic},
+    {"interp", try_interp},
     {"netcdf", try_netcdf},
     {"spo", try_spo},
     {"txt", try_txt},

@@ -123,7 +123,7 @@ static srp_ray random_ray(const srp_scene *scene, uint64_t *state) {
 
 /* Every facet is asked. */
 static srp_hit ask_all(const srp_bvh *bvh, const srp_ray *ray) {
-    srp_bvh_path path = srp_bvh_path_of(bvh, ray->origin, ray->direction, ray->from);
+    srp_bvh_path path = srp_bvh_path_of(bvh, ray);
     srp_bvh_best best = {INFINITY, SRP_NO_NEIGHBOUR, false};
     for (uint32_t k = 0; k < bvh->scene->facet_count; ++k) {
         if (k != ray->from) {
@@ -132,7 +132,7 @@ static srp_hit ask_all(const srp_bvh *bvh, const srp_ray *ray) {
         }
     }
     srp_hit hit = {0.0, SRP_NO_NEIGHBOUR, false};
-    (void)srp_bvh_finish(bvh, &path, &best, &hit);
+    (void)srp_bvh_finish(bvh, ray, &path, &best, &hit);
     return hit;
 }
 

@@ -310,6 +310,8 @@ START_TEST(changed_content_is_found) {
     } cases[] = {
         {"force", 0.5, "does not match its checksum", SRP_BAD_FORMAT},
         {"basis_rc", 0.5, "does not match its checksum", SRP_BAD_FORMAT},
+        {"basis_a", NAN, "basis_a is nan at azimuth -180, elevation -90", SRP_BAD_DATA},
+        {"basis_rb", INFINITY, "basis_rb is inf at azimuth -180", SRP_BAD_DATA},
         {"moment_error", 0.5, "does not match its checksum", SRP_BAD_FORMAT},
         {"samples", 1.0, "does not match its checksum", SRP_BAD_FORMAT},
         {"filled", 0.0, "does not match its checksum", SRP_BAD_FORMAT},
@@ -377,10 +379,39 @@ static void no_mass_at_all(int ncid) {
 static void other_lattice(int ncid) {
     ck_assert_int_eq(nc_put_att_text(ncid, NC_GLOBAL, "lattice", 3, "hex"), NC_NOERR);
 }
-static void rename_force(int ncid) {
+static void rename_variable(int ncid, const char *from, const char *to) {
     int var;
-    ck_assert_int_eq(nc_inq_varid(ncid, "force", &var), NC_NOERR);
-    ck_assert_int_eq(nc_rename_var(ncid, var, "forces"), NC_NOERR);
+    ck_assert_int_eq(nc_inq_varid(ncid, from, &var), NC_NOERR);
+    ck_assert_int_eq(nc_rename_var(ncid, var, to), NC_NOERR);
+}
+static void rename_force(int ncid) {
+    rename_variable(ncid, "force", "forces");
+}
+static void lose_basis_b(int ncid) {
+    rename_variable(ncid, "basis_b", "basis_bb");
+}
+static void lose_basis_a(int ncid) {
+    rename_variable(ncid, "basis_a", "basis_aa");
+}
+static void samples_as_basis_c(int ncid) {
+    rename_variable(ncid, "basis_c", "basis_cc");
+    rename_variable(ncid, "samples", "basis_c");
+}
+static void swap_basis(int ncid) {
+    rename_variable(ncid, "basis_b", "basis_bb");
+    rename_variable(ncid, "basis_c", "basis_b");
+    rename_variable(ncid, "basis_bb", "basis_c");
+}
+static void keep_bounce(int ncid) {
+    ck_assert_int_eq(nc_put_att_text(ncid, NC_GLOBAL, "bounce_optics_hash", 3, "abc"), NC_NOERR);
+}
+static void trace_earlier(int ncid) {
+    ck_assert_int_eq(nc_put_att_text(ncid, NC_GLOBAL, "traced_optics_hash", 3, "abc"), NC_NOERR);
+}
+static void keep_number(int ncid) {
+    const double one = 1.0;
+    ck_assert_int_eq(nc_put_att_double(ncid, NC_GLOBAL, "traced_optics_hash", NC_DOUBLE, 1, &one),
+                     NC_NOERR);
 }
 static void rename_dimension(int ncid) {
     int dimension;
@@ -406,6 +437,13 @@ START_TEST(changed_descriptions_are_refused) {
         {no_mass_at_all, "mass of -1 kg", SRP_BAD_DATA},
         {other_lattice, "'lattice' is neither", SRP_BAD_FORMAT},
         {rename_force, "variable 'force' is missing", SRP_BAD_FORMAT},
+        {lose_basis_a, "does not match its checksum", SRP_BAD_FORMAT},
+        {lose_basis_b, "variable 'basis_b' is missing", SRP_BAD_FORMAT},
+        {samples_as_basis_c, "variable 'basis_c' has another type or other dim", SRP_BAD_FORMAT},
+        {swap_basis, "does not match its checksum", SRP_BAD_FORMAT},
+        {keep_bounce, "'bounce_optics_hash' does not fit", SRP_BAD_FORMAT},
+        {trace_earlier, "does not match its checksum", SRP_BAD_FORMAT},
+        {keep_number, "'traced_optics_hash' has another type", SRP_BAD_FORMAT},
         {rename_dimension, "dimension 'component' is missing", SRP_BAD_FORMAT},
     };
     size_t size;

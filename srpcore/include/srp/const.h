@@ -15,6 +15,9 @@
 /* Default solar flux at 1 AU [W/m^2]: the value of AAS 20-481 and of GMAT (FM.SRP.Flux). */
 #define SRP_SOLAR_FLUX 1367.0
 
+/* Radius of the Sun [m], nominal (IAU 2015 Resolution B3). */
+#define SRP_SUN_RADIUS 6.957e8
+
 /* Degrees to radians [rad/deg]. Degrees are met only at the edges: command line and files. */
 #define SRP_RAD_PER_DEG (SRP_PI / 180.0)
 

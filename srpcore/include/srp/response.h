@@ -57,6 +57,25 @@ typedef struct srp_basis {
 SRP_API void srp_basis_apply(const srp_basis *basis, srp_optics optics, srp_vec3 s, srp_vec3 *f,
                              srp_vec3 *t);
 
+/*
+ * What f and t gain for each unit by which the shares of one material grow, exactly and for any
+ * optics: direct light is linear in them. From srp_basis_apply(), whose formulas stand above:
+ *   df/drho_s = a s - 2 b        df/drho_d = -(2/3) c
+ *   dt/drho_s = ra x s - 2 rb    dt/drho_d = -(2/3) rc
+ * (AAS 20-481, Eq. 2 with s to the Sun, summed and differentiated; docs/theory.md, "Other optics").
+ * Each share grows at the expense of what is absorbed. For absorbing backs of one-sided materials
+ * (the last sums of a row) they mean nothing: their optics are fixed at 0, 0.
+ */
+typedef struct srp_partials {
+    srp_vec3 f_rho_s, f_rho_d; /* [m^2], body frame */
+    srp_vec3 t_rho_s, t_rho_d; /* [m^3], body frame, about the reference point of `basis` */
+} srp_partials;
+
+/* The partials of the material of `basis` with the Sun at `s` (unit, body frame, the one that
+ * `basis` belongs to). They are of direct light alone; light reflected before is not linear in the
+ * optics. Any thread. */
+SRP_API void srp_basis_partials(const srp_basis *basis, srp_vec3 s, srp_partials *out);
+
 SRP_END_DECLS
 
 #endif

@@ -7,6 +7,7 @@
 #ifndef SRP_TABLE_H
 #define SRP_TABLE_H
 
+#include <srp/material.h>
 #include <srp/method.h>
 #include <srp/status.h>
 #include <srp/sunlight.h>
@@ -41,6 +42,21 @@ SRP_API srp_vec3 srp_direction_from_deg(double az_deg, double el_deg);
 
 typedef struct srp_table srp_table;
 
+/* Interpolation error over some directions, by one scheme; NAN where the scheme does not take the
+ * grid. t is 0 in tables without moments. */
+typedef struct srp_table_error {
+    double f_mean, f_max; /* of |difference of f| [m^2] */
+    double t_mean, t_max; /* of |difference of t| [m^3] */
+} srp_table_error;
+
+/* What is known of a table's interpolation error: see srp_interp_check() (srp/interp.h). */
+enum { SRP_TABLE_SCHEMES = 3 };
+typedef struct srp_table_check {
+    uint32_t count;                            /* directions that were computed; 0: not known */
+    uint64_t seed;                             /* of the directions */
+    srp_table_error errors[SRP_TABLE_SCHEMES]; /* in the order of srp_interp_list() */
+} srp_table_check;
+
 /* What a table tells about itself besides its numbers; strings are owned by the table. */
 typedef struct srp_table_info {
     const char *title;  /* e.g. the name of the model file */
@@ -50,6 +66,10 @@ typedef struct srp_table_info {
     const char *optics_hash;
     const char *version;      /* of the library that made it */
     const char *command_line; /* "" when unknown */
+    /* Of a table that srp_table_reoptic() made: the hash of the optics that its sums were traced
+     * with, and the command line of that run. "" for tables whose numbers are as traced. */
+    const char *traced_optics_hash;
+    const char *traced_command_line;
     srp_method_params
         params;         /* reference, seed, lattice, tolerance, bounces; threads is not stored */
     srp_sunlight light; /* P0 and AU that F and a are stated with */
@@ -57,7 +77,9 @@ typedef struct srp_table_info {
     /* What the nodes hold. Without has_error they are f (and t) alone, read from a file that has no
      * more: errors, areas, unresolved flux, samples and flags are not known. */
     bool has_error, has_moment, has_basis;
-    bool has_bounce; /* light that was reflected before is in f and t, and known apart */
+    bool has_bounce;  /* light that was reflected before is in f and t, and known apart */
+    bool bounce_kept; /* that part is of the traced optics, not of those of the materials here */
+    srp_table_check check;
 } srp_table_info;
 
 /* An empty table for `prepared`'s scene and method. `with_basis` keeps per-material sums.
@@ -70,6 +92,9 @@ SRP_API void srp_table_destroy(srp_table *table);
 SRP_API SRP_CHECK srp_status srp_table_describe(srp_table *table, const char *title,
                                                 const char *command_line, srp_sunlight light,
                                                 double mass, srp_error *error);
+
+/* Keeps what a check found. */
+SRP_API void srp_table_set_check(srp_table *table, const srp_table_check *check);
 
 typedef struct srp_table_progress {
     /* Called from the calling thread before the first batch and after each; false cancels. done and
@@ -106,6 +131,48 @@ SRP_API void srp_table_flip(srp_table *table);
 /* Share of the nodes with |f| > 0 where light would pull (f.s > 0), weighted by solid angle. Near 0
  * for physics, near 1 for a table of the opposite convention. */
 SRP_API double srp_table_pull_share(const srp_table *table);
+
+/*
+ * A new table, of the same nodes as `table`, for other optics: f and t of direct light come from
+ * the sums per material that `table` keeps (PHYSICS: "Direct light is linear in the optics"), and
+ * nothing is traced.
+ *   materials    new optics by name; a material of the table that is not in it, or whose optics are
+ *                not known there, keeps its own. Which sides a material has was settled when the
+ *                sums were made: one_sided = false leaves it as it is.
+ *   keep_bounce  what to do about light that was reflected before, which is not linear in the
+ *                optics. False: a table with such a part (has_bounce) is refused. True: that part,
+ *                its standard error and the unresolved flux stay as traced, and bounce_kept of the
+ *                result says so
+ * The result keeps the sums, so that it can be given other optics again. It has the optics' hash of
+ * its new optics, traced_optics_hash names those that the sums were made with, and it cannot be
+ * filled further (srp_table_check_origin). command_line is "" until described. Areas and samples
+ * stay. Where the sums are exact, f and t are what the method would give for the new optics, to
+ * rounding. Where they are sampled (f_error > 0 without a bounce part), f_error and t_error are the
+ * old ones times how much harder light may push now, a scale and no bound (docs/theory.md, "Other
+ * optics"), and SRP_RESPONSE_TOLERANCE_MISSED is decided anew. Empty nodes stay empty.
+ * SRP_UNSUPPORTED: no sums per material; a bounce part and not keep_bounce; one_sided = true for a
+ * material that has two sides; part of a sampled model outside its window (SRP_RESPONSE_CUT): the
+ * sums lack it. SRP_NOT_FOUND: a name that the table does not have; the message lists those that it
+ * has. SRP_NO_MEMORY. `table` is not changed; any thread.
+ */
+SRP_API SRP_CHECK srp_status srp_table_reoptic(const srp_table *table,
+                                               const srp_materials *materials, bool keep_bounce,
+                                               srp_table **out, srp_error *error);
+
+/* What may be odd about the numbers of a table, as of one that went through a file. */
+typedef struct srp_table_report {
+    double pole_spread[2]; /* [m^2] largest |f - mean| among the nodes of the south and north pole,
+                              which are one direction */
+    double seam_spread;    /* [m^2] largest |difference of f| between the ends of azimuth */
+    double quantum;        /* [m^2] power of ten that all components of f are multiples of, 0 when
+                              it is less than 1e-7 of the largest */
+    double f_max;          /* [m^2] largest |f| */
+} srp_table_report;
+
+/* Looks at a complete table. What an interpolant must make up for is sent to `log` (may be NULL) as
+ * warnings about the file `name`: spreads above 1e-9 of the largest |f|, and rounding. */
+SRP_API void srp_table_inspect(const srp_table *table, const char *name, const srp_log *log,
+                               srp_table_report *out);
 
 /* File formats. */
 enum {
@@ -146,7 +213,7 @@ SRP_API SRP_CHECK srp_status srp_table_parse_spo(const char *text, size_t size, 
                                                  srp_table **out, srp_error *error);
 /* SRP_OK when `table` (read from a file) is of the same scene, method, parameters and grid as an
  * empty one made for `prepared` would be, so that it may be filled further; else SRP_MISMATCH with
- * the first difference in words. */
+ * the first difference in words. A table that was given other optics is none. */
 SRP_API SRP_CHECK srp_status srp_table_check_origin(const srp_table *table,
                                                     const srp_prepared *prepared, srp_grid grid,
                                                     bool with_basis, srp_error *error);

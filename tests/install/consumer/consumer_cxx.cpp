@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The headers are usable from C++, and link to the C library.
+#include <srp/interp.h>
 #include <srp/method.h>
 #include <srp/scene.h>
 #include <srp/sunlight.h>

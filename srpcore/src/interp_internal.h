@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The inside of interpolants, shared by the schemes. Internal. */
+#ifndef SRP_SRC_INTERP_INTERNAL_H
+#define SRP_SRC_INTERP_INTERNAL_H
+
+#include <srp/interp.h>
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Doubles per node: f and one of padding, or f, t and two of padding; a node of the wider kind is
+ * one line of the cache. */
+enum { SRP_INTERP_WIDTH_F = 4, SRP_INTERP_WIDTH_FT = 8, SRP_INTERP_T = 3 };
+
+/* What is known of the field around a pole, per component: value + d (slope . (cos az, sin az)) +
+ * d^2/2 (curve . (1, cos 2 az, sin 2 az)), d the distance from the pole in rows. */
+typedef struct srp_interp_pole {
+    double value[SRP_INTERP_WIDTH_FT];
+    double slope[2][SRP_INTERP_WIDTH_FT];
+    double curve[3][SRP_INTERP_WIDTH_FT]; /* 0 for schemes that have no use for it */
+} srp_interp_pole;
+
+struct srp_interp {
+    const srp_interp_scheme *scheme;
+    bool has_moment;
+    size_t width;
+    uint32_t columns, rows; /* steps of azimuth and elevation */
+    double columns_per_rad, rows_per_rad;
+    /* Azimuth in columns from -180 degrees is az_base + az_scale times the angle to the nearest
+     * axis. By 4 |sine| > |cosine|, 2 cosine < 0, 1 sine < 0. Elevation in rows from -90 likewise,
+     * by 2 |sine| > cosine, 1 sine < 0. */
+    double az_base[8], az_scale[8], el_base[4], el_scale[4];
+    /* (columns + 3, rows + 3, width): column i of the grid is at i + 1 and row j at j + 1, with one
+     * more of each before the first and behind the last. Columns repeat; the rows beyond the poles
+     * are the scheme's. Nodes, or what the scheme has made of them. */
+    double *nodes;
+    /* linear[0] + s_x linear[1] + s_y linear[2] + s_z linear[3] has been taken off the nodes. */
+    double linear[4][SRP_INTERP_WIDTH_FT];
+    srp_interp_pole poles[2]; /* south, north */
+};
+
+/* Where a direction lies. */
+typedef struct srp_interp_place {
+    srp_vec3 s; /* normalised */
+    double cos_az, sin_az, cos_el;
+    uint32_t i, j;   /* cell: between columns i and i + 1, rows j and j + 1 */
+    double p, q;     /* place in the cell, 0 to 1, along azimuth and elevation */
+    double el_angle; /* [rad] from the nearest of equator and poles */
+} srp_interp_place;
+
+static inline size_t srp_interp_column_size(const srp_interp *interp) {
+    return ((size_t)interp->rows + 3) * interp->width;
+}
+
+/* Node of column -1 to columns + 1 and row -1 to rows + 1. */
+static inline double *srp_interp_node(const srp_interp *interp, long i, long j) {
+    return interp->nodes + (size_t)(i + 1) * srp_interp_column_size(interp) +
+           (size_t)(j + 1) * interp->width;
+}
+
+/* The nodes that a look-up sees: rows j - 1 to j + 2, one after the other, of columns i - 1 to
+ * i + 2, each `column` doubles behind the last. */
+typedef struct srp_interp_stencil {
+    const double *first;
+    size_t column;
+} srp_interp_stencil;
+
+/* Those of cell (i, j). All schemes get at nodes here and nowhere else, so that this is the place
+ * where a table that is being filled can be asked for them. Besides these, the local schemes need
+ * the poles, bicubic the six nodes of the linear part, and cells with a pole those that
+ * srp_interp_fit_slopes() looks at. */
+static inline srp_interp_stencil srp_interp_stencil_of(const srp_interp *interp, uint32_t i,
+                                                       uint32_t j) {
+    size_t column = srp_interp_column_size(interp);
+    srp_interp_stencil stencil = {interp->nodes + i * column + j * interp->width, column};
+    return stencil;
+}
+
+/* Sets columns, rows and what follows from them. */
+void srp_interp_set_grid(srp_interp *interp, uint32_t columns, uint32_t rows);
+
+/* Sets slope of both poles from a few nodes, evenly spread over the rows next to them. */
+void srp_interp_fit_slopes(srp_interp *interp);
+
+/* Cosine and sine of the azimuth of column i. */
+void srp_interp_column_direction(const srp_interp *interp, uint32_t i, double *cosine,
+                                 double *sine);
+
+/* Fills the columns before the first and behind the last. */
+void srp_interp_repeat_columns(srp_interp *interp);
+
+#endif
