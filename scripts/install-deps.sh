@@ -8,11 +8,13 @@
 set -euo pipefail
 
 BUILD=(gcc g++ cmake ninja-build pkg-config libc6-dev libnetcdf-dev libxxhash-dev)
-TEST=(check libgsl-dev)
+# For plates that are fitted, and for figures; CMake goes on without them.
+BUILD+=(libgsl-dev libplplot-dev plplot-driver-cairo)
+TEST=(check libgsl-dev libpng-dev)
 CI=(clang clang-format libomp-dev)
 # Nice to have, and tried once, without a word when that fails but that it did: the yardstick of the
-# benchmarks, a look into tables, rendering of manual pages.
-OPTIONAL=(libembree-dev netcdf-bin mandoc)
+# benchmarks, a look into tables, rendering of manual pages, checks of SVG and PDF.
+OPTIONAL=(libembree-dev netcdf-bin mandoc libxml2-utils poppler-utils)
 # OpenGL: headers to build with (else --device gl is left out), and what is opened at run time (else
 # it says what is missing, and its tests are skipped).
 GL=(libgl-dev libegl-dev libosmesa6 libegl1 libgl1-mesa-dri)

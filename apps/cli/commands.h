@@ -10,5 +10,8 @@ extern const cli_command cli_command_force;
 extern const cli_command cli_command_table;
 extern const cli_command cli_command_reoptic;
 extern const cli_command cli_command_convert;
+extern const cli_command cli_command_plot;
+extern const cli_command cli_command_compare;
+extern const cli_command cli_command_fit_nplate;
 
 #endif

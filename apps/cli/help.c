@@ -2,6 +2,7 @@
 #include "help.h"
 
 #include "methods.h"
+#include "plate_fit.h"
 
 #include <srp/table.h>
 
@@ -49,6 +50,9 @@ void cli_help_version(FILE *out) {
           "Copyright the srpcore authors. Licence Apache-2.0: "
           "<https://www.apache.org/licenses/LICENSE-2.0>.\n",
           out);
+    if (cli_plate_fit_exists()) {
+        fputs("This program is linked with GSL and as a whole handed on under GPL-3.\n", out);
+    }
 }
 
 static void print_option(FILE *out, const cli_option *option) {

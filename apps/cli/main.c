@@ -12,9 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const cli_command *const COMMANDS[] = {&cli_command_info, &cli_command_force,
-                                              &cli_command_table, &cli_command_reoptic,
-                                              &cli_command_convert};
+static const cli_command *const COMMANDS[] = {
+    &cli_command_info,    &cli_command_force, &cli_command_table,   &cli_command_reoptic,
+    &cli_command_convert, &cli_command_plot,  &cli_command_compare, &cli_command_fit_nplate};
 
 const cli_command *const *cli_command_list(size_t *count) {
     *count = sizeof COMMANDS / sizeof COMMANDS[0];

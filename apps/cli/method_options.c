@@ -19,7 +19,7 @@ static const struct {
     double metres;
 } UNITS[] = {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"in", 0.0254}, {"ft", 0.3048}};
 
-static bool set_unit(const cli_option *option, void *target, const char *text) {
+bool cli_set_unit(const cli_option *option, void *target, const char *text) {
     double *metres = (double *)((char *)target + option->offset);
     for (size_t i = 0; i < sizeof UNITS / sizeof UNITS[0]; ++i) {
         if (strcmp(text, UNITS[i].name) == 0) {
@@ -50,7 +50,7 @@ static const cli_option MODEL_OPTIONS[MODEL_OPTION_COUNT] = {
                     .words = "m mm cm in ft",
                     .help = "Unit of the OBJ files: m (default), mm, cm, in, ft, or a number of "
                             "metres.",
-                    .set = set_unit,
+                    .set = cli_set_unit,
                     .offset = offsetof(cli_model_options, metres_per_unit)},
     [MODEL_PLATES] = {.name = "plates",
                       .value = "FILE",

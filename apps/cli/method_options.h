@@ -53,6 +53,9 @@ typedef struct cli_method_options {
 
 extern const cli_group cli_group_model, cli_group_method;
 
+/* Setter: metres in a unit of length, a double. */
+bool cli_set_unit(const cli_option *option, void *target, const char *text);
+
 cli_model_options cli_model_options_default(void);
 cli_method_options cli_method_options_default(void);
 

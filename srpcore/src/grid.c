@@ -160,6 +160,15 @@ srp_vec3 srp_grid_direction(srp_grid grid, uint32_t i, uint32_t j) {
     return direction(az, el);
 }
 
+double srp_grid_solid_angle(srp_grid grid, uint32_t i, uint32_t j) {
+    double half = 90.0 / (double)(grid.el_count - 1);
+    double el = srp_grid_elevation_deg(grid, j);
+    double high = fmin(el + half, 90.0), low = fmax(el - half, -90.0);
+    double band = sin(high * SRP_RAD_PER_DEG) - sin(low * SRP_RAD_PER_DEG);
+    bool seam = i == 0 || i == grid.az_count - 1;
+    return 2.0 * SRP_PI / (double)(grid.az_count - 1) * (seam ? 0.5 * band : band);
+}
+
 srp_vec3 srp_direction_from_deg(double az_deg, double el_deg) {
     return direction(of_degrees(az_deg), of_degrees(el_deg));
 }

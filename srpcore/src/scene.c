@@ -413,6 +413,15 @@ size_t srp_scene_facet_count(const srp_scene *scene) {
     return scene->shape == SRP_SHAPE_PLATES ? scene->plate_count : scene->facet_count;
 }
 
+srp_face srp_scene_face(const srp_scene *scene, size_t index) {
+    if (scene->shape == SRP_SHAPE_PLATES) {
+        const srp_plate *plate = &scene->plates[index];
+        return (srp_face){plate->normal, plate->area, (uint32_t)index, false};
+    }
+    const srp_facet *facet = &scene->facets[index];
+    return (srp_face){facet->normal, facet->area, facet->material, !facet->closed};
+}
+
 double srp_scene_radius(const srp_scene *scene) {
     double radius = 0.0;
     for (size_t i = 0; i < scene->vertex_count; ++i) {

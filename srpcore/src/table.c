@@ -321,17 +321,6 @@ void srp_table_flip(srp_table *table) {
     }
 }
 
-/* Solid angle of a node's cell, up to a factor that all nodes share: the part within the grid of
- * the cell that reaches half a step to each side. */
-static double node_weight(srp_grid grid, uint32_t i, uint32_t j) {
-    double half = 90.0 / (double)(grid.el_count - 1);
-    double el = srp_grid_elevation_deg(grid, j);
-    double high = fmin(el + half, 90.0), low = fmax(el - half, -90.0);
-    double band = sin(high * SRP_RAD_PER_DEG) - sin(low * SRP_RAD_PER_DEG);
-    bool seam = i == 0 || i == grid.az_count - 1;
-    return seam ? 0.5 * band : band;
-}
-
 double srp_table_pull_share(const srp_table *table) {
     double all = 0.0, pulling = 0.0;
     for (uint32_t i = 0; i < table->grid.az_count; ++i) {
@@ -340,7 +329,7 @@ double srp_table_pull_share(const srp_table *table) {
             if (node == NULL || srp_vec3_norm(node->f) == 0.0) {
                 continue;
             }
-            double weight = node_weight(table->grid, i, j);
+            double weight = srp_grid_solid_angle(table->grid, i, j);
             all += weight;
             if (srp_vec3_dot(node->f, srp_grid_direction(table->grid, i, j)) > 0.0) {
                 pulling += weight;

@@ -26,7 +26,8 @@ offers() {
 }
 
 offers 'info' srp in
-offers 'convert' srp c
+offers 'convert' srp conv
+offers 'compare convert' srp c
 offers 'table' srp help t
 offers '--distance-au' srp force --dis
 offers '--step' srp table --st
@@ -51,7 +52,7 @@ offers 'd.plates' srp force --plates = d
 offers '' srp nocommand ''
 
 # Every option of every command.
-for command in info force table reoptic convert; do
+for command in info force table reoptic convert plot compare fit-nplate; do
     expect 0 "$command" --help
     grep -oE -- '^ {2,6}(-[a-z], )?--[a-z-]+' ../log/out | grep -oE -- '--[a-z-]+' > options
     while read -r option; do

@@ -22,7 +22,19 @@ if command -v ldd > /dev/null; then
     prints_not 'libGL' # OpenGL is opened when it is asked for
     prints_not 'libEGL'
     prints_not 'libOSMesa'
-    prints_not 'libgsl' # srp is Apache-2.0
+    # The licence that --version states is that of what is linked.
+    if grep -qF libgsl ../log/out; then
+        expect 0 --version
+        prints 'GPL-3'
+    else
+        expect 0 --version
+        prints_not 'GPL-3'
+    fi
+    last='ldd moved/lib/libsrpcore.so'
+    ldd "$(find moved -name 'libsrpcore.so' | head -1)" > ../log/out
+    prints 'libc.so'
+    prints_not 'libgsl' # the library is Apache-2.0
+    prints_not 'libplplot'
 fi
 
 # Staged for a package: below DESTDIR, as if it were /usr.

@@ -3,6 +3,7 @@
 #include "command_line.h"
 #include "json.h"
 #include "numbers.h"
+#include "palette.h"
 #include "progress.h"
 #include "srp_check.h"
 #include "suggest.h"
@@ -204,6 +205,66 @@ START_TEST(progress_tells_the_time_left) {
 }
 END_TEST
 
+static double step_of(const cli_palette *palette, int k) {
+    double a[3], b[3], sum = 0.0;
+    cli_lab_of_srgb(palette->rgb[k - 1], a);
+    cli_lab_of_srgb(palette->rgb[k], b);
+    for (int c = 0; c < 3; ++c) {
+        sum += (a[c] - b[c]) * (a[c] - b[c]);
+    }
+    return sqrt(sum);
+}
+
+/* Steps `first` to `last` are alike. */
+static void check_even(const cli_palette *palette, int first, int last) {
+    double least = INFINITY, most = 0.0;
+    for (int k = first; k <= last; ++k) {
+        least = fmin(least, step_of(palette, k));
+        most = fmax(most, step_of(palette, k));
+    }
+    printf("steps %d to %d of a palette: %.4f to %.4f in L*a*b*\n", first, last, least, most);
+    ck_assert(least > 0.0 && most < 1.05 * least);
+}
+
+START_TEST(palettes_are_even_to_the_eye) {
+    const int end = CLI_PALETTE_SIZE - 1, middle = CLI_PALETTE_SIZE / 2;
+    cli_palette sequential, diverging;
+    double here[3], before[3];
+    cli_palette_sequential(&sequential);
+    cli_palette_diverging(&diverging);
+    check_even(&sequential, 1, end);
+    check_even(&diverging, 1, middle - 1);
+    check_even(&diverging, middle + 1, end);
+    for (int k = 1; k <= end; ++k) { /* ever lighter; lightest in the middle */
+        cli_lab_of_srgb(sequential.rgb[k - 1], before);
+        cli_lab_of_srgb(sequential.rgb[k], here);
+        ck_assert(here[0] > before[0]);
+        cli_lab_of_srgb(diverging.rgb[k - 1], before);
+        cli_lab_of_srgb(diverging.rgb[k], here);
+        ck_assert(k == middle || (here[0] > before[0]) == (k < middle));
+    }
+}
+END_TEST
+
+START_TEST(colours_go_there_and_back) {
+    const double white[3] = {1.0, 1.0, 1.0}, red[3] = {1.0, 0.0, 0.0};
+    const double some[3] = {0.123, 0.456, 0.789};
+    double lab[3], rgb[3];
+    cli_lab_of_srgb(white, lab);
+    assert_close(lab[0], 100.0, 1e-4, 0.0);
+    assert_close(hypot(lab[1], lab[2]), 0.0, 0.0, 0.02);
+    cli_lab_of_srgb(red, lab); /* B. Lindbloom's calculator */
+    assert_close(lab[0], 53.2408, 1e-4, 0.0);
+    assert_close(lab[1], 80.0925, 1e-4, 0.0);
+    assert_close(lab[2], 67.2032, 1e-4, 0.0);
+    cli_lab_of_srgb(some, lab);
+    cli_srgb_of_lab(lab, rgb);
+    for (int c = 0; c < 3; ++c) {
+        assert_close(rgb[c], some[c], 1e-5, 0.0);
+    }
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("cli_parts");
     TCase *tcase = tcase_create("cli_parts");
@@ -216,6 +277,8 @@ int main(void) {
     tcase_add_test(tcase, command_lines_can_be_typed_again);
     tcase_add_test(tcase, json_is_json);
     tcase_add_test(tcase, progress_fits_every_terminal);
+    tcase_add_test(tcase, palettes_are_even_to_the_eye);
+    tcase_add_test(tcase, colours_go_there_and_back);
     tcase_add_test(tcase, progress_tells_the_time_left);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);

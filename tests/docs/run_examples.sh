@@ -7,6 +7,8 @@
 #   ```sh        is a script: it must succeed;
 #   ```console   is a session: commands after "$ " and, below each, all that it says on stdout and
 #                stderr; a line "..." stands for any text;
+#   ```sh needs-WORD, ```console needs-WORD are skipped when the variable LACKS has that word: what this
+#                build is without (figures, fit);
 #   ```sh no-run, ```console no-run and every other kind of block are only shown.
 # The blocks of one document run in order in one scratch directory, where `models` is ours. Links to
 # files of the repository must lead somewhere.
@@ -34,6 +36,9 @@ fail() {
         sed 's/^/  expected: /' <<< "$4"
     fi
 }
+
+# skip LINE WORD
+skip() { echo "skipped: $document:$1: this build is without $2"; }
 
 # run_script LINE TEXT
 run_script() {
@@ -110,9 +115,11 @@ while IFS= read -r line; do
         begin=$number
         text=
     elif [ "$line" = '```' ]; then
+        need=${kind##* needs-}
+        [[ " ${LACKS:-} " != *" $need "* ]] || { skip "$begin" "$need" && kind=text; }
         case $kind in
-        sh) run_script "$begin" "$text" ;;
-        console) run_session "$begin" "${text%$'\n'}" ;;
+        sh | 'sh needs-'*) run_script "$begin" "$text" ;;
+        console | 'console needs-'*) run_session "$begin" "${text%$'\n'}" ;;
         esac
         kind=
     elif [ -n "$kind" ]; then

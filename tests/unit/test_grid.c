@@ -168,6 +168,27 @@ START_TEST(seam_and_poles_are_one_direction) {
 }
 END_TEST
 
+START_TEST(solid_angles_cover_the_sphere) {
+    const double steps[][2] = {{5, 5}, {20, 20}, {7.5, 22.5}, {360, 180}, {360.0 / 7, 180.0 / 7}};
+    for (size_t k = 0; k < sizeof steps / sizeof steps[0]; ++k) {
+        srp_grid grid;
+        srp_error error;
+        assert_ok(srp_grid_from_steps(steps[k][0], steps[k][1], &grid, &error), error);
+        double sum = 0.0, height = 0.0;
+        for (uint32_t i = 0; i < grid.az_count; ++i) {
+            for (uint32_t j = 0; j < grid.el_count; ++j) {
+                double weight = srp_grid_solid_angle(grid, i, j);
+                ck_assert(weight > 0.0);
+                sum += weight;
+                height += weight * srp_grid_direction(grid, i, j).z;
+            }
+        }
+        assert_close(sum, 4.0 * SRP_PI, 1e-13, 0.0);
+        assert_close(height, 0.0, 0.0, 1e-13);
+    }
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("grid");
     TCase *tcase = tcase_create("grid");
@@ -177,6 +198,7 @@ int main(void) {
     tcase_add_test(tcase, directions_follow_the_definition);
     tcase_add_test(tcase, a_node_is_its_direction_to_the_bit);
     tcase_add_test(tcase, mirror_nodes_have_mirrored_bits);
+    tcase_add_test(tcase, solid_angles_cover_the_sphere);
     tcase_add_test(tcase, seam_and_poles_are_one_direction);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);

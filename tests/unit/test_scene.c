@@ -30,6 +30,37 @@ START_TEST(box_becomes_facets) {
 }
 END_TEST
 
+START_TEST(faces_are_told) {
+    srp_vec3 low = {0.5, -1.25, 2}, high = {1.75, 1, 4.5}, sum = {0, 0, 0};
+    srp_scene *scene = shape_scene(shape_box(low, high, "foil"), GREY);
+    double area = 0.0;
+    for (size_t i = 0; i < srp_scene_facet_count(scene); ++i) {
+        srp_face face = srp_scene_face(scene, i);
+        ck_assert(!face.two_sided && face.material == 0);
+        area += face.area;
+        sum = srp_vec3_add_scaled(sum, face.area, face.normal);
+    }
+    assert_close(area, 2.0 * (1.25 * 2.25 + 1.25 * 2.5 + 2.25 * 2.5), 1e-14, 0.0);
+    assert_vec3_close(sum, srp_vec3_make(0, 0, 0), 0.0, 1e-14);
+    srp_scene_destroy(scene);
+
+    const srp_vec3 corner[3] = {{0, 0, 0}, {2.5, 0, 0}, {0, 1.5, 0}};
+    const srp_triangle one = {{0, 1, 2}};
+    scene = shape_scene(shape_mesh(corner, 3, &one, 1, "foil"), GREY);
+    srp_face face = srp_scene_face(scene, 0);
+    ck_assert(face.two_sided && face.area == 1.875 && face.normal.z == 1.0);
+    srp_scene_destroy(scene);
+
+    const srp_plate plates[2] = {{{1, 0, 0}, 2.25, {0.31, 0.27, false}},
+                                 {{0, 0, -1}, 3.5, {0.31, 0.27, false}}};
+    srp_error error;
+    assert_ok(srp_scene_from_plates(plates, 2, &scene, &error), error);
+    face = srp_scene_face(scene, 1);
+    ck_assert(!face.two_sided && face.area == 3.5 && face.normal.z == -1.0 && face.material == 1);
+    srp_scene_destroy(scene);
+}
+END_TEST
+
 static srp_mesh *turned_box(srp_vec3 low, srp_vec3 high) {
     srp_mesh *box = shape_box(low, high, "foil");
     srp_triangle turned[12];
@@ -263,6 +294,7 @@ int main(void) {
     tcase_add_test(tcase, boxes_beyond_resolution_are_refused);
     tcase_add_test(tcase, scenes_at_the_limit_of_reach_are_exact);
     tcase_add_test(tcase, hashes_tell_shape_from_optics);
+    tcase_add_test(tcase, faces_are_told);
     tcase_add_test(tcase, plates_and_spheres_are_checked);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);

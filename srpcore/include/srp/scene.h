@@ -10,7 +10,9 @@
 #include <srp/mesh.h>
 #include <srp/plates.h>
 #include <srp/status.h>
+#include <srp/vec3.h>
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -60,6 +62,16 @@ SRP_API const char *srp_scene_material_name(const srp_scene *scene, size_t index
 SRP_API srp_optics srp_scene_material_optics(const srp_scene *scene, size_t index);
 /* Triangles or plates that light can fall on (degenerate triangles are left out). */
 SRP_API size_t srp_scene_facet_count(const srp_scene *scene);
+/* A triangle or plate that light can fall on. */
+typedef struct srp_face {
+    srp_vec3 normal;   /* [-] outward, unit, body frame */
+    double area;       /* [m^2] > 0 */
+    uint32_t material; /* index of its material */
+    bool two_sided;    /* of an open surface: light can fall on its back as well */
+} srp_face;
+/* Face `index` (below srp_scene_facet_count()); closed parts that were wound inside out are turned.
+ * Any thread. */
+SRP_API srp_face srp_scene_face(const srp_scene *scene, size_t index);
 /* Radius of the smallest sphere about the body origin that holds the mesh [m]; 0 without a mesh. */
 SRP_API double srp_scene_radius(const srp_scene *scene);
 /* Hash (XXH3, 128 bits, 32 hexadecimal digits) of everything about shape, and of the optics, that

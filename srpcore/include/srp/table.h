@@ -34,6 +34,9 @@ SRP_API double srp_grid_elevation_deg(srp_grid grid, uint32_t j);
 /* Direction of a node. Multiples of 90 degrees give exact 0 and 1; mirror nodes give mirrored bits;
  * the two ends of azimuth, and all azimuths of a pole, give the same bits. */
 SRP_API srp_vec3 srp_grid_direction(srp_grid grid, uint32_t i, uint32_t j);
+/* Solid angle of a node's cell [sr]: the part within the grid of the cell that reaches half a step
+ * to each side. Those of all nodes add up to 4 pi. */
+SRP_API double srp_grid_solid_angle(srp_grid grid, uint32_t i, uint32_t j);
 /* Unit vector of any azimuth and elevation [deg], with exact multiples of 90 degrees. */
 SRP_API srp_vec3 srp_direction_from_deg(double az_deg, double el_deg);
 

@@ -1,0 +1,379 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* srp compare: how far two tables are apart. */
+#include "commands.h"
+#include "difference.h"
+#include "figure.h"
+#include "json.h"
+#include "messages.h"
+#include "table_input.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum {
+    COMPARE_MOMENT,
+    COMPARE_MASS,
+    COMPARE_FLUX,
+    COMPARE_FAIL_ABOVE,
+    COMPARE_INTERPOLATION,
+    COMPARE_JSON,
+    COMPARE_OPTION_COUNT
+};
+
+typedef struct compare_options {
+    cli_given given;
+    bool moment, json;
+    double mass, flux, fail_above;
+    const char *interpolation;
+} compare_options;
+
+static const cli_option OPTIONS[COMPARE_OPTION_COUNT] = {
+    [COMPARE_MOMENT] = {.name = "moment",
+                        .help = "Compare moments instead of forces.",
+                        .set = cli_set_flag,
+                        .offset = offsetof(compare_options, moment)},
+    [COMPARE_MASS] = {.name = "mass",
+                      .value = "KG",
+                      .help = "Mass of the spacecraft; prints accelerations too. Default: what A "
+                              "states.",
+                      .set = cli_set_number,
+                      .offset = offsetof(compare_options, mass),
+                      .range = &CLI_POSITIVE},
+    [COMPARE_FLUX] = {.name = "flux",
+                      .value = "W/M2",
+                      .help = "Solar flux at 1 AU, for accelerations. Default: what A states.",
+                      .set = cli_set_number,
+                      .offset = offsetof(compare_options, flux),
+                      .range = &CLI_POSITIVE},
+    [COMPARE_FAIL_ABOVE] = {.name = "fail-above",
+                            .value = "REL",
+                            .help =
+                                "End with status 1 when the largest difference, as a vector, is "
+                                "more than REL times the mean length of A.",
+                            .set = cli_set_number,
+                            .offset = offsetof(compare_options, fail_above),
+                            .range = &CLI_NOT_NEGATIVE},
+    [COMPARE_INTERPOLATION] = {.name = "interpolation",
+                               .value = "NAME",
+                               .complete = CLI_COMPLETE_WORDS,
+                               .words = "bilinear bicubic spline",
+                               .help = "How the table of the coarser grid is interpolated to the "
+                                       "nodes of the finer: bilinear, bicubic or spline. Default: "
+                                       "bicubic.",
+                               .set = cli_set_text,
+                               .offset = offsetof(compare_options, interpolation)},
+    [COMPARE_JSON] = {.name = "json",
+                      .help = "Print JSON.",
+                      .set = cli_set_flag,
+                      .offset = offsetof(compare_options, json)},
+};
+
+static const cli_group COMPARISON = {"Comparison", OPTIONS, COMPARE_OPTION_COUNT};
+static const cli_group *const GROUPS[] = {&COMPARISON, &cli_group_figure};
+
+typedef struct comparison {
+    const compare_options *options;
+    const char *path[2];
+    srp_table *table[2];
+    srp_interp *interp[2]; /* NULL where the table has all nodes of the grid */
+    srp_grid grid;         /* the finer of theirs */
+    size_t directions;
+    cli_difference difference;
+    double mass; /* [kg], NAN when not known */
+    srp_sunlight light;
+    const srp_interp_scheme *scheme;
+} comparison;
+
+/* ---- output ---- */
+
+static void print_rows(const cli_difference *d, double factor, const char *unit,
+                       const char *squared) {
+    char mse[32], rms[32], mean[32], largest[32];
+    snprintf(mse, sizeof mse, "MSE [%s]", squared);
+    snprintf(rms, sizeof rms, "RMS [%s]", unit);
+    snprintf(mean, sizeof mean, "mean [%s]", unit);
+    snprintf(largest, sizeof largest, "largest [%s]", unit);
+    printf("\n%-7s %15s %13s %13s %16s %8s %8s\n", "B - A", mse, rms, mean, largest, "az [deg]",
+           "el [deg]");
+    for (int c = 0; c < CLI_DIFFERENCE_COUNT; ++c) {
+        const cli_difference_row *row = &d->row[c];
+        printf("%-7s %15.6e %13.6e %13.6e %16.6e %8g %8g\n", CLI_DIFFERENCE_NAME[c],
+               factor * factor * row->mse, factor * row->rms, factor * row->mean,
+               factor * row->largest, row->az_deg, row->el_deg);
+    }
+}
+
+static void print_relative(const cli_difference *d) {
+    printf("\n%-7s %15s %13s %13s %16s\n", "/ A", "", "RMS", "mean", "largest");
+    for (int c = 0; c < CLI_DIFFERENCE_COUNT; ++c) {
+        const cli_difference_row *row = &d->row[c];
+        printf("%-7s %15s %13.6e %13.6e %16.6e\n", CLI_DIFFERENCE_NAME[c], "", row->rms / d->mean_a,
+               row->mean / d->mean_a, row->largest / d->mean_a);
+    }
+}
+
+/* [m/s^2] per [m^2]. */
+static double acceleration_factor(const comparison *c) {
+    return srp_sunlight_pressure(c->light, c->light.au) / c->mass;
+}
+
+static void print_text(const comparison *c) {
+    const char *unit = c->options->moment ? "m^3" : "m^2";
+    for (int k = 0; k < 2; ++k) {
+        char summary[256];
+        cli_table_summary(c->table[k], summary, sizeof summary);
+        const char *how = c->interp[k] != NULL ? c->scheme->name : "";
+        printf("%c          %s: %s%s%s\n", k == 0 ? 'A' : 'B', c->path[k], summary,
+               how[0] != '\0' ? ", interpolated: " : "", how);
+    }
+    printf("compared   %s [%s] from %zu directions, steps of %g x %g degrees, each by its solid "
+           "angle\n",
+           c->options->moment ? "moments" : "forces", unit, c->directions,
+           360.0 / (c->grid.az_count - 1), 180.0 / (c->grid.el_count - 1));
+    printf("mean size  A %.6g %s, B %.6g %s\n", c->difference.mean_a, unit, c->difference.mean_b,
+           unit);
+    print_rows(&c->difference, 1.0, unit, c->options->moment ? "m^6" : "m^4");
+    print_relative(&c->difference);
+    if (!c->options->moment && !isnan(c->mass)) {
+        printf("\nAccelerations of %g kg, 1 AU from the Sun, %g W/m^2:\n", c->mass, c->light.flux);
+        print_rows(&c->difference, acceleration_factor(c), "m/s^2", "m^2/s^4");
+    }
+}
+
+static void write_json(const comparison *c) {
+    cli_json json;
+    cli_json_begin(&json, stdout);
+    cli_json_text(&json, "a", c->path[0]);
+    cli_json_text(&json, "b", c->path[1]);
+    cli_json_text(&json, "quantity", c->options->moment ? "moment_m3" : "force_m2");
+    cli_json_count(&json, "directions", c->directions);
+    cli_json_number(&json, "mean_length_a", c->difference.mean_a);
+    cli_json_number(&json, "mean_length_b", c->difference.mean_b);
+    cli_json_open_object(&json, "b_minus_a");
+    for (int k = 0; k < CLI_DIFFERENCE_COUNT; ++k) {
+        const cli_difference_row *row = &c->difference.row[k];
+        cli_json_open_object(&json, CLI_DIFFERENCE_NAME[k]);
+        cli_json_number(&json, "mse", row->mse);
+        cli_json_number(&json, "rms", row->rms);
+        cli_json_number(&json, "mean", row->mean);
+        cli_json_number(&json, "largest", row->largest);
+        cli_json_number(&json, "azimuth_deg", row->az_deg);
+        cli_json_number(&json, "elevation_deg", row->el_deg);
+        cli_json_close_object(&json);
+    }
+    cli_json_close_object(&json);
+    if (!c->options->moment && !isnan(c->mass)) {
+        cli_json_number(&json, "mass_kg", c->mass);
+        cli_json_number(&json, "m_s2_per_m2", acceleration_factor(c));
+    }
+    cli_json_end(&json);
+}
+
+/* ---- the figure ---- */
+
+/* What table t says at a node of the grid. */
+static srp_vec3 value_at(const comparison *c, int t, uint32_t i, uint32_t j) {
+    srp_vec3 force = {0.0, 0.0, 0.0}, moment = {0.0, 0.0, 0.0};
+    if (c->interp[t] != NULL) {
+        srp_status status = srp_interp_eval(c->interp[t], srp_grid_direction(c->grid, i, j), &force,
+                                            &moment, NULL, NULL);
+        return status == SRP_OK && !c->options->moment ? force : moment;
+    }
+    srp_grid own = srp_table_grid(c->table[t]);
+    const srp_response *node =
+        srp_table_node(c->table[t], i * ((own.az_count - 1) / (c->grid.az_count - 1)),
+                       j * ((own.el_count - 1) / (c->grid.el_count - 1)));
+    return c->options->moment ? node->t : node->f;
+}
+
+/* Rows of `picture` at the common nodes: x, y, z of B - A and its length. */
+static void fill_fields(const comparison *c, double *value) {
+    size_t nodes = srp_grid_node_count(c->grid), k = 0;
+    for (uint32_t i = 0; i < c->grid.az_count; ++i) {
+        for (uint32_t j = 0; j < c->grid.el_count; ++j, ++k) {
+            srp_vec3 d = srp_vec3_sub(value_at(c, 1, i, j), value_at(c, 0, i, j));
+            value[k] = d.x;
+            value[nodes + k] = d.y;
+            value[2 * nodes + k] = d.z;
+            value[3 * nodes + k] = srp_vec3_norm(d);
+        }
+    }
+}
+
+static int draw(const comparison *c, const cli_figure_options *figure) {
+    size_t nodes = srp_grid_node_count(c->grid);
+    double *value = calloc(CLI_FIGURE_ROWS * nodes, sizeof *value);
+    if (value == NULL) {
+        cli_say("no memory for the figure");
+        return CLI_MACHINE_FAILED;
+    }
+    fill_fields(c, value);
+    bool moment = c->options->moment;
+    char title[512];
+    snprintf(title, sizeof title, "%s minus %s", c->path[1], c->path[0]);
+    cli_picture picture = {
+        .title = title,
+        .columns = 1,
+        .rows = CLI_FIGURE_ROWS,
+        .grid = {c->grid},
+        .name = {moment ? "Δt#dx#u [m³]" : "Δf#dx#u [m²]", moment ? "Δt#dy#u [m³]" : "Δf#dy#u [m²]",
+                 moment ? "Δt#dz#u [m³]" : "Δf#dz#u [m²]", moment ? "|Δt| [m³]" : "|Δf| [m²]"},
+        .is_signed = {true, true, true, false}};
+    for (size_t r = 0; r < CLI_FIGURE_ROWS; ++r) {
+        picture.field[0][r].value = &value[r * nodes];
+    }
+    int status = cli_figure_write(figure, &picture);
+    free(value);
+    return status;
+}
+
+/* ---- the command ---- */
+
+static int same_reference(const comparison *c) {
+    const srp_table_info *a = srp_table_get_info(c->table[0]);
+    const srp_table_info *b = srp_table_get_info(c->table[1]);
+    for (int k = 0; k < 2; ++k) {
+        if (!srp_table_get_info(c->table[k])->has_moment) {
+            fprintf(stderr, "%s: holds no moments, expected them for --moment\n", c->path[k]);
+            return CLI_BAD_INPUT;
+        }
+    }
+    srp_vec3 apart = srp_vec3_sub(a->params.reference, b->params.reference);
+    if (srp_vec3_norm(apart) > 0.0) {
+        srp_vec3 p = b->params.reference, q = a->params.reference;
+        fprintf(stderr, "%s: moments are about (%g, %g, %g) m, expected (%g, %g, %g) m as in %s\n",
+                c->path[1], p.x, p.y, p.z, q.x, q.y, q.z, c->path[0]);
+        return CLI_BAD_INPUT;
+    }
+    return CLI_DONE;
+}
+
+/* The grid to compare on, and interpolants of the table that lacks its nodes. */
+static int choose_grid(comparison *c) {
+    c->grid = cli_grid_finer(srp_table_grid(c->table[0]), srp_table_grid(c->table[1]));
+    for (int k = 0; k < 2; ++k) {
+        srp_error error;
+        if (!cli_grid_contains(srp_table_grid(c->table[k]), c->grid) &&
+            srp_interp_create(c->scheme, c->table[k], &c->interp[k], &error) != SRP_OK) {
+            fprintf(stderr, "%s: cannot be interpolated: %s\n", c->path[k], error.message);
+            return error.status == SRP_NO_MEMORY ? CLI_MACHINE_FAILED : CLI_BAD_INPUT;
+        }
+    }
+    return CLI_DONE;
+}
+
+static bool take(const comparison *c, int k, cli_samples *out) {
+    return c->interp[k] != NULL
+               ? cli_samples_interpolate(c->interp[k], c->grid, c->options->moment, out)
+               : cli_samples_take(c->table[k], c->grid, c->options->moment, out);
+}
+
+static int measure(comparison *c) {
+    cli_samples a, b;
+    if (!take(c, 0, &a)) {
+        cli_say("no memory");
+        return CLI_MACHINE_FAILED;
+    }
+    if (!take(c, 1, &b)) {
+        cli_samples_free(&a);
+        cli_say("no memory");
+        return CLI_MACHINE_FAILED;
+    }
+    c->directions = a.count;
+    c->difference = cli_difference_measure(&a, b.value, NULL);
+    cli_samples_free(&a);
+    cli_samples_free(&b);
+    return CLI_DONE;
+}
+
+static int judge(const comparison *c) {
+    double largest = c->difference.row[CLI_DIFFERENCE_VECTOR].largest;
+    if (cli_is_given(c->options->given, COMPARE_FAIL_ABOVE) &&
+        !(largest <= c->options->fail_above * c->difference.mean_a)) {
+        cli_say("the largest difference is %.6g of the mean length, more than %g",
+                largest / c->difference.mean_a, c->options->fail_above);
+        return CLI_BAD_INPUT;
+    }
+    return CLI_DONE;
+}
+
+static void choose_light(comparison *c) {
+    const srp_table_info *info = srp_table_get_info(c->table[0]);
+    c->mass = cli_is_given(c->options->given, COMPARE_MASS) ? c->options->mass : info->mass;
+    c->light = info->light;
+    if (cli_is_given(c->options->given, COMPARE_FLUX)) {
+        c->light.flux = c->options->flux;
+    }
+}
+
+static int compare(comparison *c, const cli_figure_options *figure) {
+    int status = cli_figure_check(figure, c->path, 2);
+    for (int k = 0; k < 2 && status == CLI_DONE; ++k) {
+        status = cli_table_open_checked(c->path[k], &c->table[k]);
+    }
+    if (status == CLI_DONE && c->options->moment) {
+        status = same_reference(c);
+    }
+    if (status == CLI_DONE) {
+        status = choose_grid(c);
+    }
+    if (status == CLI_DONE) {
+        choose_light(c);
+        status = measure(c);
+    }
+    if (status == CLI_DONE && figure->output != NULL) {
+        status = draw(c, figure);
+    }
+    if (status == CLI_DONE) {
+        c->options->json ? write_json(c) : print_text(c);
+        status = judge(c);
+    }
+    for (int k = 0; k < 2; ++k) {
+        srp_interp_destroy(c->interp[k]);
+        srp_table_destroy(c->table[k]);
+    }
+    return status;
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    compare_options options = {.mass = NAN, .flux = SRP_SOLAR_FLUX, .interpolation = "bicubic"};
+    cli_figure_options figure = cli_figure_options_default();
+    void *const targets[] = {&options, &figure};
+    cli_operands operands;
+    int status;
+    if (!cli_command_parse(command, argc, argv, targets, &operands, &status)) {
+        return status;
+    }
+    if (operands.count != 2) {
+        return cli_usage_error("expected two tables, A and B, found %zu", operands.count);
+    }
+    const srp_interp_scheme *scheme = srp_interp_find(options.interpolation);
+    if (scheme == NULL) {
+        return cli_usage_error("--interpolation %s: expected bilinear, bicubic or spline",
+                               options.interpolation);
+    }
+    comparison c = {
+        .options = &options, .scheme = scheme, .path = {operands.items[0], operands.items[1]}};
+    return compare(&c, &figure);
+}
+
+const cli_command cli_command_compare = {
+    .name = "compare",
+    .operands = "A B",
+    .operand_files = "nc spo txt",
+    .summary = "how far two tables are apart",
+    .description =
+        "Prints the difference B - A for each component, for the length of the force, and as a "
+        "vector: mean square, root mean square, mean, and the largest value with its direction, in "
+        "m^2, relative to the mean length of A, and in m/s^2 when the mass is known.\n\n"
+        "Tables of different grids are compared at the nodes of the finer; the other is "
+        "interpolated, and what that misses is part of the difference. Means are over the sphere: "
+        "each direction counts by its solid angle. With -o the difference is drawn.",
+    .examples = "srp compare exact.nc plates.nc\n"
+                "srp compare exact.nc plates.nc --mass 850 -o difference.png\n"
+                "srp compare before.spo after.spo --fail-above 1e-6",
+    .groups = GROUPS,
+    .group_count = sizeof GROUPS / sizeof GROUPS[0],
+    .run = run,
+};

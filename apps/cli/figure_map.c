@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A field as a flat map with contours. */
+#include "figure_draw.h"
+
+#include <srp/const.h>
+
+#include <math.h>
+
+enum { LEVELS = 64, LINES = 8 };
+
+/* theta of Mollweide's projection: 2 theta + sin 2 theta = pi sin el (Snyder, Map Projections,
+ * 1987, eq. 31-3), by bisection and Newton steps. */
+static double mollweide_angle(double el) {
+    double want = SRP_PI * sin(el), theta = el;
+    if (fabs(el) > 0.5 * SRP_PI - 1e-12) {
+        return el;
+    }
+    double low = -0.5 * SRP_PI, high = 0.5 * SRP_PI;
+    for (int k = 0; k < 60; ++k) {
+        double off = 2.0 * theta + sin(2.0 * theta) - want;
+        *(off > 0.0 ? &high : &low) = theta;
+        double slope = 2.0 + 2.0 * cos(2.0 * theta), next = theta - off / slope;
+        theta = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    return theta;
+}
+
+/* Where a direction is on the map: degrees, or for Mollweide's an ellipse of the same size. */
+static void place(double az_deg, double el_deg, bool mollweide, double *x, double *y) {
+    *x = az_deg;
+    *y = el_deg;
+    if (mollweide) {
+        double theta = mollweide_angle(el_deg * SRP_RAD_PER_DEG);
+        *x = az_deg * cos(theta);
+        *y = 90.0 * sin(theta);
+    }
+}
+
+typedef struct map {
+    PLINT nx, ny;
+    PLFLT **z;
+    PLcGrid2 at;
+} map;
+
+static void map_free(map *m) {
+    plFree2dGrid(m->z, m->nx, m->ny);
+    plFree2dGrid(m->at.xg, m->nx, m->ny);
+    plFree2dGrid(m->at.yg, m->nx, m->ny);
+}
+
+static void map_make(map *m, srp_grid grid, const double *value, bool mollweide) {
+    m->nx = (PLINT)grid.az_count;
+    m->ny = (PLINT)grid.el_count;
+    m->at.nx = m->nx;
+    m->at.ny = m->ny;
+    plAlloc2dGrid(&m->z, m->nx, m->ny);
+    plAlloc2dGrid(&m->at.xg, m->nx, m->ny);
+    plAlloc2dGrid(&m->at.yg, m->nx, m->ny);
+    for (PLINT i = 0; i < m->nx; ++i) {
+        for (PLINT j = 0; j < m->ny; ++j) {
+            m->z[i][j] = value[(size_t)i * grid.el_count + (size_t)j];
+            place(srp_grid_azimuth_deg(grid, (uint32_t)i),
+                  srp_grid_elevation_deg(grid, (uint32_t)j), mollweide, &m->at.xg[i][j],
+                  &m->at.yg[i][j]);
+        }
+    }
+}
+
+/* A parallel (of elevation) or a meridian of the map, as a line. */
+static void draw_line(double from, double to, double fixed, bool meridian, bool mollweide) {
+    enum { POINTS = 91 };
+    PLFLT x[POINTS], y[POINTS];
+    for (int k = 0; k < POINTS; ++k) {
+        double moving = from + (to - from) * k / (POINTS - 1);
+        place(meridian ? fixed : moving, meridian ? moving : fixed, mollweide, &x[k], &y[k]);
+    }
+    plline(POINTS, x, y);
+}
+
+/* Azimuths on the equator, each on a scrap of paper, and elevations beside the rim. */
+static void label_ellipse(void) {
+    char text[8];
+    plschr(0.0, 0.85);
+    for (int az = -90; az <= 90; az += 90) {
+        const PLFLT x[4] = {az - 16.0, az + 16.0, az + 16.0, az - 16.0}, y[4] = {-7, -7, 7, 7};
+        plcol0(INK_PAPER);
+        plfill(4, x, y);
+        plcol0(INK_BLACK);
+        snprintf(text, sizeof text, "%d", az);
+        plptex(az, 0.0, 1.0, 0.0, 0.5, text);
+    }
+    for (int el = -45; el <= 45; el += 90) {
+        double x, y;
+        place(-180.0, el, true, &x, &y);
+        snprintf(text, sizeof text, "%d", el);
+        plptex(x - 5.0, y, 1.0, 0.0, 1.0, text);
+    }
+    plschr(0.0, 1.0);
+}
+
+static void draw_frame(const char *name, bool mollweide) {
+    plcol0(INK_GREY);
+    plwidth(0.5);
+    for (int az = -90; az <= 90; az += 90) {
+        draw_line(-90.0, 90.0, az, true, mollweide);
+    }
+    for (int el = -45; el <= 45; el += 45) {
+        draw_line(-180.0, 180.0, el, false, mollweide);
+    }
+    plcol0(INK_BLACK);
+    plwidth(1.0);
+    if (mollweide) {
+        draw_line(-90.0, 90.0, -180.0, true, true);
+        draw_line(-90.0, 90.0, 180.0, true, true);
+        label_ellipse();
+    } else {
+        plbox("bcnst", 90.0, 3, "bcnstv", 45.0, 3);
+        plmtex("b", 3.0, 0.5, 0.5, "az [deg]");
+        plmtex("l", 3.6, 0.5, 0.5, "el [deg]");
+    }
+    plmtex("t", 1.5, 0.5, 0.5, name);
+}
+
+static void draw_contours(const map *m, cli_scale scale) {
+    PLFLT level[4 * LINES];
+    double step = cli_figure_step(scale.high - scale.low, LINES);
+    PLINT count = 0;
+    for (double at = ceil(scale.low / step) * step; at <= scale.high && count < 4 * LINES;
+         at += step) {
+        level[count++] = at;
+    }
+    plcol0(INK_BLACK);
+    plwidth(0.6);
+    pl_setcontlabelformat(4, 3);
+    pl_setcontlabelparam(0.008, 0.6, 0.1, 1);
+    plcont((PLFLT_MATRIX)m->z, m->nx, m->ny, 1, m->nx, 1, m->ny, level, count, pltr2,
+           (PLPointer)&m->at);
+    plwidth(1.0);
+}
+
+static void colour_cells(const map *m, cli_scale scale) {
+    for (PLINT i = 0; i + 1 < m->nx; ++i) {
+        for (PLINT j = 0; j + 1 < m->ny; ++j) {
+            PLFLT x[4] = {m->at.xg[i][j], m->at.xg[i + 1][j], m->at.xg[i + 1][j + 1],
+                          m->at.xg[i][j + 1]};
+            PLFLT y[4] = {m->at.yg[i][j], m->at.yg[i + 1][j], m->at.yg[i + 1][j + 1],
+                          m->at.yg[i][j + 1]};
+            double mean =
+                0.25 * (m->z[i][j] + m->z[i + 1][j] + m->z[i + 1][j + 1] + m->z[i][j + 1]);
+            plcol1((mean - scale.low) / (scale.high - scale.low));
+            plfill(4, x, y);
+        }
+    }
+}
+
+static void shade(const map *m, cli_scale scale) {
+    PLFLT level[LEVELS + 1];
+    double range = scale.high - scale.low;
+    for (int k = 0; k <= LEVELS; ++k) {
+        level[k] = scale.low + range * k / LEVELS;
+    }
+    level[0] -= 1e-9 * range;
+    level[LEVELS] += 1e-9 * range;
+    plpsty(0);
+    colour_cells(m, scale); /* under the shades, whose edges would let the paper shine through */
+    plshades((PLFLT_MATRIX)m->z, m->nx, m->ny, NULL, -180.0, 180.0, -90.0, 90.0, level, LEVELS + 1,
+             0.0, 0, 0.0, plfill, 0, pltr2, (PLPointer)&m->at);
+}
+
+bool cli_figure_map(const cli_panel *panel, const cli_picture *picture, size_t column, size_t row,
+                    cli_scale scale, bool mollweide) {
+    map m;
+    map_make(&m, picture->grid[column], picture->field[column][row].value, mollweide);
+    cli_figure_colours(scale, scale.low, scale.high);
+    plvpor(panel->left, panel->right, panel->bottom, panel->top);
+    plwind(-180.0, 180.0, -90.0, 90.0);
+    shade(&m, scale);
+    draw_contours(&m, scale);
+    draw_frame(picture->name[row], mollweide);
+    map_free(&m);
+    return true;
+}
+
+void cli_figure_bar(const cli_panel *panel, cli_scale scale) {
+    cli_figure_colours(scale, scale.low, scale.high);
+    plvpor(panel->left, panel->right, panel->bottom, panel->top);
+    plwind(0.0, 1.0, scale.low, scale.high);
+    double range = scale.high - scale.low;
+    for (int k = 0; k < CLI_PALETTE_SIZE; ++k) {
+        double low = scale.low + range * k / CLI_PALETTE_SIZE;
+        double high = fmin(low + 1.5 * range / CLI_PALETTE_SIZE, scale.high);
+        const PLFLT x[4] = {0.0, 1.0, 1.0, 0.0}, y[4] = {low, low, high, high};
+        plcol1((k + 0.5) / CLI_PALETTE_SIZE);
+        plfill(4, x, y);
+    }
+    plcol0(INK_BLACK);
+    plbox("bc", 0.0, 0, "bcmstv", cli_figure_step(range, 5), 0);
+}
