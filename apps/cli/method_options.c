@@ -353,6 +353,12 @@ static int choose_lattice(const cli_method_options *options, const srp_method *m
     if (cli_is_given(given, METHOD_MAX_GRID) && !cli_is_given(given, METHOD_TOLERANCE)) {
         return cli_usage_error("--max-grid needs --tolerance");
     }
+    if (cli_is_given(given, METHOD_MAX_GRID) && !pixel && !window &&
+        options->max_grid < (grid ? options->grid : lattice->samples)) {
+        return cli_usage_error(
+            "--max-grid %u is less than --grid %u, which is where refining begins",
+            options->max_grid, grid ? options->grid : lattice->samples);
+    }
     bool bounces = (method->capabilities & SRP_METHOD_BOUNCE) != 0;
     if (window && !bounces && cli_is_given(given, METHOD_SEED)) {
         return cli_usage_error("a --window has no random shift: --seed would be without effect");

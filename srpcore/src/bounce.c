@@ -303,6 +303,15 @@ srp_bounce_sum srp_bounce_sums_total(const srp_bounce_sums *sums, srp_bounce_kin
     return total;
 }
 
+double srp_bounce_sums_dark(const srp_bounce_sums *sums, srp_bounce_kind kind) {
+    int dark = 0;
+    for (int g = 0; g < SRP_BOUNCE_GROUPS; ++g) {
+        srp_vec3 f = sums->group[g][kind].f;
+        dark += f.x == 0.0 && f.y == 0.0 && f.z == 0.0;
+    }
+    return (double)dark / SRP_BOUNCE_GROUPS;
+}
+
 /* Variances of f and t. */
 typedef struct variance {
     double f, t;

@@ -181,6 +181,8 @@ void srp_bounce_wave_finish(srp_bounce_wave *wave);
 void srp_bounce_sums_add(srp_bounce_sums *into, const srp_bounce_sums *from);
 /* What light of one kind adds to f and t. */
 srp_bounce_sum srp_bounce_sums_total(const srp_bounce_sums *sums, srp_bounce_kind kind);
+/* Of the groups, the share in which no light of this kind has landed. */
+double srp_bounce_sums_dark(const srp_bounce_sums *sums, srp_bounce_kind kind);
 /* Adds the variances of f and t of that, summed over axes. `turned`: the lattice was shifted at
  * random against the model. */
 void srp_bounce_sums_variance(const srp_bounce_sums *sums, srp_bounce_kind kind, bool turned,

@@ -27,7 +27,8 @@ struct srp_mirrors {
     const srp_bounce_world *world;
     srp_visible *visible;
     uint32_t *reach; /* facets that a beam may hit */
-    double trifle;   /* cross-section that is rounding noise [m^2] */
+    double
+        trifle; /* cross-section that may be rounding noise: the light is left unresolved [m^2] */
     uint32_t limit, beams;
     srp_basis *basis;
     srp_mirrored *out;
@@ -55,7 +56,7 @@ srp_mirrors *srp_mirrors_create(const srp_bounce_world *world) {
     }
     double size = srp_vec3_norm(scene->centre) + scene->radius;
     work->world = world;
-    work->trifle = 16.0 * DBL_EPSILON * size * size;
+    work->trifle = 16.0 * DBL_EPSILON * size * scene->radius;
     work->visible = srp_visible_create(scene);
     work->reach = malloc(scene->facet_count * sizeof *work->reach);
     if (work->visible == NULL || work->reach == NULL) {
@@ -118,8 +119,13 @@ static srp_status leave(srp_mirrors *work, uint32_t bounces, const srp_lit *lit,
     }
     bool blind = srp_bounce_is_blind(world, lit->facet, lit->back);
     if (!blind && bounces < world->reflections) {
-        bool goes_on = optics.rho_s > 0.0 && lit->area > work->trifle;
-        return goes_on ? remember(&work->levels[bounces], lit) : SRP_OK;
+        work->out->goes_on += flux * optics.rho_s;
+        work->out->scattered += flux * (share - optics.rho_s);
+        if (optics.rho_s > 0.0 && lit->area > work->trifle) {
+            return remember(&work->levels[bounces], lit);
+        }
+        work->out->unresolved += flux * optics.rho_s;
+        return SRP_OK;
     }
     work->out->unresolved += blind ? 0.0 : flux * share;
     tell(work, (srp_bounce_event){.step = blind ? SRP_BOUNCE_ESCAPES : SRP_BOUNCE_IS_CUT,

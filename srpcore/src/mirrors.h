@@ -30,6 +30,9 @@ typedef struct srp_mirrored {
     bool complete; /* no more than `limit` beams; else only the direct part is given */
     srp_bounce_sum sum;
     double unresolved; /* flux that was cut, by the rules of bounce.h [m^2] */
+    /* Flux that goes on from mirrors and is scattered on its way, followed or not [m^2]: of the
+     * first hits when not complete, else of all hits of light that has met mirrors only. */
+    double goes_on, scattered;
 } srp_mirrored;
 
 /*

@@ -231,14 +231,29 @@ typedef struct sampled {
     double unresolved, f_variance, t_variance;
 } sampled;
 
-static void add_samples(const raytrace_scratch *own, srp_bounce_kind kind, sampled *into) {
+/* `available`: the flux that there is of it. */
+static void add_samples(const raytrace_scratch *own, srp_bounce_kind kind, double available,
+                        sampled *into) {
     const srp_bounce_sums *sums = &own->strips[0];
     srp_bounce_sum sum = srp_bounce_sums_total(sums, kind);
     into->sum.f = srp_vec3_add(into->sum.f, sum.f);
     into->sum.t = srp_vec3_add(into->sum.t, sum.t);
     into->unresolved += sums->unresolved[kind];
+    /* Where the groups have seen no light, their scatter says nothing: one cell of the lattice may
+     * have missed as much as it stands for, though no more than there is. */
+    double cell = own->frame.lattice.du * own->frame.lattice.dv;
+    double unseen =
+        fmin(cell, available) * fmin(cell, available) * srp_bounce_sums_dark(sums, kind);
+    const srp_scene *scene = own->state->head.scene;
+    srp_vec3 lever = srp_vec3_sub(scene->centre, own->state->world.reference);
+    into->f_variance += unseen;
+    into->t_variance += unseen * pow(srp_vec3_norm(lever) + scene->radius, 2.0);
     srp_bounce_sums_variance(sums, kind, own->frame.kind == SRP_LATTICE_TURNED, &into->f_variance,
                              &into->t_variance);
+}
+
+static bool needs_samples(const srp_mirrored *mirrored) {
+    return !mirrored->complete || mirrored->scattered > 0.0;
 }
 
 /* Mirrored light as it was solved, the rest as it was sampled. */
@@ -249,10 +264,11 @@ static void take_sums(const raytrace_scratch *own, double incoming, srp_response
         all.sum = mirrored->sum;
         all.unresolved = mirrored->unresolved;
     } else {
-        add_samples(own, SRP_BOUNCE_SPECULAR, &all);
+        add_samples(own, SRP_BOUNCE_SPECULAR, mirrored->goes_on, &all);
     }
-    if (out->samples > 0) {
-        add_samples(own, SRP_BOUNCE_DIFFUSE, &all);
+    if (own->state->scatters && needs_samples(mirrored)) {
+        double beyond = mirrored->complete ? 0.0 : mirrored->goes_on;
+        add_samples(own, SRP_BOUNCE_DIFFUSE, mirrored->scattered + beyond, &all);
     }
     out->f_bounce = all.sum.f;
     out->t_bounce = all.sum.t;
@@ -288,7 +304,7 @@ static srp_status trace_bounces(raytrace_scratch *own, srp_vec3 s, int parts, sr
         }
         take_sums(own, incoming, out);
         take_cut(own, out);
-        if (out->samples == 0 || is_precise(params, f, out)) {
+        if (is_precise(params, f, out)) {
             return SRP_OK;
         }
         if (!may_refine(params, &own->frame.lattice)) {
@@ -309,7 +325,7 @@ static srp_status respond_in_parts(srp_scratch *scratch, srp_vec3 s, srp_respons
     if (!own->mirrored.complete) {
         out->flags |= SRP_RESPONSE_MIRRORS_SAMPLED;
     }
-    if (state->scatters || !own->mirrored.complete) {
+    if (needs_samples(&own->mirrored)) {
         status = trace_bounces(own, s, parts, out);
     } else {
         take_sums(own, srp_basis_lit_area(state->head.scene, own->head.basis), out);

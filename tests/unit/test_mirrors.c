@@ -216,6 +216,37 @@ START_TEST(nothing_behind_a_mirror_is_hit) {
 }
 END_TEST
 
+/* Two mirrors of 1 mm, 20 degrees apart, where the body's origin is and 1.3 km from it. */
+START_TEST(small_mirrors_far_away_lose_no_beam) {
+    const double size = 1e-3, c = cos(0.349065850398866), n = sin(0.349065850398866);
+    const srp_vec3 s = unit(0.93, 0.1, 0.34);
+    srp_response at[2];
+    for (int k = 0; k < 2; ++k) {
+        srp_vec3 o = k == 0 ? ORIGIN : srp_vec3_make(1000.0, -700.0, 300.0);
+        const srp_vec3 v[6] = {{0, 0, 0},
+                               {0, size, 0},
+                               {size, 0, 0},
+                               {size, size, 0},
+                               {c * size, 0, n * size},
+                               {c * size, size, n * size}};
+        srp_vec3 moved[6];
+        for (int i = 0; i < 6; ++i) {
+            moved[i] = srp_vec3_add(v[i], o);
+        }
+        const srp_triangle t[4] = {{{0, 2, 3}}, {{0, 3, 1}}, {{0, 1, 5}}, {{0, 5, 4}}};
+        srp_scene *scene = shape_scene(shape_mesh(moved, 6, t, 4, "mirror"), MIRROR);
+        at[k] = solve(scene, 6, o, s);
+        srp_scene_destroy(scene);
+    }
+    printf("mirrors of 1 mm: bounce %.6e m^2, off by %.1e 1.3 km away\n",
+           srp_vec3_norm(at[0].f_bounce),
+           srp_vec3_norm(srp_vec3_sub(at[0].f_bounce, at[1].f_bounce)));
+    ck_assert(srp_vec3_norm(at[0].f_bounce) > 1e-7);
+    assert_vec3_close(at[1].f_bounce, at[0].f_bounce, 1e-8, 0.0);
+    assert_close(at[1].unresolved, at[0].unresolved, 0.0, 1e-8);
+}
+END_TEST
+
 /* ---- bookkeeping ---- */
 
 typedef struct account {
@@ -458,6 +489,7 @@ int main(void) {
     tcase_add_test(tcase, corner_cube_sends_light_back);
     tcase_add_test(tcase, plate_over_a_mirror);
     tcase_add_test(tcase, nothing_behind_a_mirror_is_hit);
+    tcase_add_test(tcase, small_mirrors_far_away_lose_no_beam);
     tcase_add_loop_test(tcase, momentum_is_kept, 0, 4);
     tcase_add_test(tcase, momentum_is_kept_among_random_mirrors);
     tcase_add_loop_test(tcase, beams_turn_with_the_scene, 0, 4);

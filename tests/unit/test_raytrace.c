@@ -454,6 +454,61 @@ START_TEST(lattices_and_fans_agree) {
 }
 END_TEST
 
+/* A white corner of 3 cm on a black panel of 20 m: a lattice that misses it must not say that it
+ * knows. */
+START_TEST(what_samples_may_have_missed_is_in_the_error) {
+    const srp_vec3 v[10] = {{-10.0, -10.0, 0.0}, {10.0, -10.0, 0.0}, {10.0, 10.0, 0.0},
+                            {-10.0, 10.0, 0.0},  {0.0, 0.0, 0.01},   {0.03, 0.0, 0.01},
+                            {0.03, 0.03, 0.01},  {0.0, 0.03, 0.01},  {0.0, 0.0, 0.04},
+                            {0.0, 0.03, 0.04}};
+    const srp_triangle panel[2] = {{{0, 1, 2}}, {{0, 2, 3}}};
+    const srp_triangle corner[4] = {{{4, 5, 6}}, {{4, 6, 7}}, {{4, 7, 9}}, {{4, 9, 8}}};
+    srp_mesh *mesh = shape_mesh(v, 10, panel, 2, "black");
+    shape_join(mesh, shape_mesh(v, 10, corner, 4, "white"));
+    srp_materials *materials;
+    srp_scene *scene;
+    srp_error error;
+    assert_ok(srp_materials_create(&materials, &error), error);
+    assert_ok(srp_materials_set(materials, "black", (srp_optics){0.0, 0.0, false}, false, &error),
+              error);
+    assert_ok(srp_materials_set(materials, "white", (srp_optics){0.0, 1.0, false}, false, &error),
+              error);
+    assert_ok(srp_scene_from_mesh(mesh, materials, &scene, &error), error);
+    srp_vec3 s = {sqrt(0.5), 0.0, sqrt(0.5)};
+    srp_method_params params = params_of(1, 4);
+    srp_method_params near = params;
+    near.lattice.kind = SRP_LATTICE_WINDOW;
+    near.lattice.window[0] = near.lattice.window[2] = -0.06;
+    near.lattice.window[1] = near.lattice.window[3] = 0.06;
+    near.lattice.columns = near.lattice.rows = 256;
+    srp_response want = trace(scene, &near, s);
+    ck_assert(want.f_error > 0.0 && srp_vec3_norm(want.f_bounce) > 10.0 * want.f_error);
+    int missed = 0, within = 0;
+    for (uint32_t seed = 0; seed < 40; ++seed) {
+        params.lattice.samples = 256;
+        params.seed = seed;
+        srp_response got = trace(scene, &params, s);
+        missed += srp_vec3_norm(got.f_bounce) == 0.0;
+        within += srp_vec3_norm(srp_vec3_sub(got.f, want.f)) <= 2.0 * got.f_error;
+        ck_assert(got.f_error > 0.0 && got.t_error > 0.0);
+    }
+    printf("small corner: missed %d of 40 times, %d within 2 errors\n", missed, within);
+    ck_assert(missed > 10 && within >= 36);
+    /* A tolerance is not met by what was not seen. */
+    params.lattice.samples = 1;
+    params.tolerance = 1e-6;
+    params.max_samples = 64;
+    srp_response got = trace(scene, &params, s);
+    ck_assert((got.flags & SRP_RESPONSE_TOLERANCE_MISSED) != 0);
+    /* From behind nothing white is lit, and nothing is to be sampled. */
+    got = trace(scene, &params, srp_vec3_scale(-1.0, s));
+    ck_assert(got.f_error == 0.0 && got.samples == 0);
+    srp_scene_destroy(scene);
+    srp_materials_destroy(materials);
+    srp_mesh_destroy(mesh);
+}
+END_TEST
+
 /* ---- failures ---- */
 
 START_TEST(bad_parameters_are_named) {
@@ -499,6 +554,7 @@ int main(void) {
     tcase_add_test(tcase, tables_are_the_same_for_any_threads);
     tcase_add_test(tcase, what_a_window_cuts_is_in_the_error);
     tcase_add_test(tcase, tolerance_refines);
+    tcase_add_test(tcase, what_samples_may_have_missed_is_in_the_error);
     tcase_add_test(tcase, lattices_and_fans_agree);
     tcase_add_test(tcase, bad_parameters_are_named);
     suite_add_tcase(suite, tcase);
