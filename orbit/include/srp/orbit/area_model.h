@@ -37,6 +37,12 @@ SRP_API SRP_CHECK srp_status srp_area_model_cannonball(double cr, double area, s
 /* Takes over `interp`. SRP_NO_MEMORY: then it is still the caller's. */
 SRP_API SRP_CHECK srp_status srp_area_model_interp(srp_interp *interp, srp_area_model *out,
                                                    srp_error *error);
+/* GMAT's own interpolation (SPADSRPInterpolationMethod): bilinear, or Lagrange's cubic through 4 x
+ * 4 nodes. The nodes are copied. For agreement with GMAT to the last digit; srp_interp_... are
+ * better behaved at the poles. SRP_BAD_ARGUMENT (table not complete, or smaller than the stencil),
+ * SRP_NO_MEMORY. */
+SRP_API SRP_CHECK srp_status srp_area_model_spad(const srp_table *table, bool cubic,
+                                                 srp_area_model *out, srp_error *error);
 /* Asks `prepared`, which must outlive the model, at each call; derivatives by central differences
  * over 1e-5 rad. N-plate models, and the yardstick of tables. SRP_NO_MEMORY. */
 SRP_API SRP_CHECK srp_status srp_area_model_direct(const srp_prepared *prepared,
