@@ -166,8 +166,9 @@ static srp_status from_fields(const char *text, const date_fields *date, srp_tim
         *out = normalised(tai, tai_fraction);
     } else {
         srp_epoch naive = normalised(jd, fraction);
-        /* The offset of TDB changes by 3e-13 s over the offset itself. */
-        *out = srp_epoch_add(naive, -offset_of(scale, naive.jd + naive.s / DAY));
+        /* The offset is that of the instant in TAI: TDB's changes by 1e-8 s over itself. */
+        const srp_epoch near = srp_epoch_add(naive, -offset_of(scale, naive.jd + naive.s / DAY));
+        *out = srp_epoch_add(naive, -offset_of(scale, near.jd + near.s / DAY));
     }
     if (beyond != NULL) {
         *beyond = utc && code == 1;
