@@ -25,10 +25,11 @@ static srp_status at_entry(const mission_source *source, const char *path, srp_s
     return mission_fail(source, error, SRP_BAD_DATA, path, "%s", why->message);
 }
 
-/* A file that cannot be opened is told at the entry that names it. */
+/* A file that cannot be opened, or is wrong as a whole, is told at the entry that names it. */
 static srp_status at_file(const mission_source *source, const char *path, srp_status status,
                           const srp_error *why, srp_error *error) {
-    if (status == SRP_NOT_FOUND || status == SRP_IO) {
+    if (status == SRP_NOT_FOUND || status == SRP_IO ||
+        (status != SRP_OK && why->file[0] != '\0' && why->line == 0)) {
         return mission_fail(source, error, status, path, "%s: %s", why->file, why->message);
     }
     return at_entry(source, path, status, why, error);

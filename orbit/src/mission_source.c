@@ -155,6 +155,8 @@ struct mission_source {
     /* What libcyaml says of a failure: its first words, and its first place. */
     char words[512];
     unsigned line, column;
+    char fields[8][64]; /* of its backtrace, the innermost first */
+    size_t depth;
 };
 
 static yaml_node_t *child(yaml_document_t *document, yaml_node_t *node, const char *key,
@@ -298,12 +300,29 @@ static void listen(cyaml_log_t level, void *user, const char *format, va_list ar
     }
     vsnprintf(line, sizeof line, format, arguments);
     const char *place = strstr(line, "(line: ");
+    if (place != NULL && source->depth < 8 &&
+        sscanf(line, " in mapping field '%63[^']'", source->fields[source->depth]) == 1) {
+        ++source->depth;
+    }
     if (place != NULL && source->line == 0) {
         sscanf(place, "(line: %u, column: %u)", &source->line, &source->column);
     } else if (source->words[0] == '\0' && place == NULL) {
         const char *words = strncmp(line, "Load: ", 6) == 0 ? line + 6 : line;
         snprintf(source->words, sizeof source->words, "%.*s", (int)strcspn(words, "\n"), words);
     }
+}
+
+/* The backtrace begins with the last entry that was there; those around it are the way to the
+ * mapping. */
+static srp_status missing_key(const mission_source *source, const char *key, srp_error *error) {
+    char path[600] = "";
+    for (size_t i = source->depth; i > 1; --i) {
+        strcat(path, source->fields[i - 1]);
+        strcat(path, i > 2 ? "." : "");
+    }
+    const yaml_mark_t mark = place_of(source, path);
+    return srp_fail_at(error, SRP_BAD_FORMAT, source->name, mark.line + 1, mark.column + 1,
+                       "%s%s'%s' is missing here", path, path[0] != '\0' ? ": " : "", key);
 }
 
 static srp_status schema_failure(mission_source *source, cyaml_err_t code, srp_error *error) {
@@ -325,8 +344,7 @@ static srp_status schema_failure(mission_source *source, cyaml_err_t code, srp_e
                            "'%s' is no key of a mission here", key);
     }
     if (strncmp(source->words, MISSING, sizeof MISSING - 1) == 0) {
-        return srp_fail_at(error, SRP_BAD_FORMAT, source->name, line > 0 ? line : 1, column,
-                           "'%s' is missing here", source->words + sizeof MISSING - 1);
+        return missing_key(source, source->words + sizeof MISSING - 1, error);
     }
     return srp_fail_at(error, SRP_BAD_FORMAT, source->name, line, column, "%s (%s)",
                        source->words[0] != '\0' ? source->words : "not as a mission is written",
