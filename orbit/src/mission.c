@@ -46,6 +46,28 @@ static srp_status keep(srp_mission *mission, size_t slot, const char *text, cons
     return SRP_OK;
 }
 
+/* What goes into an OEM is printable ASCII on one line. */
+static srp_status check_text(const mission_source *source, const char *path, const char *text,
+                             srp_error *error) {
+    for (const char *at = text; at != NULL && *at != '\0'; ++at) {
+        if ((unsigned char)*at < 32 || (unsigned char)*at > 126 || at - text >= 200) {
+            return mission_fail(source, error, SRP_BAD_DATA, path,
+                                "expected a line of at most 200 printable ASCII characters");
+        }
+    }
+    return SRP_OK;
+}
+
+static srp_status check_texts(const mission_source *source, srp_error *error) {
+    const mission_file *file = mission_source_file(source);
+    srp_status status = check_text(source, "title", file->title, error);
+    if (status == SRP_OK) {
+        status = check_text(source, "spacecraft.name", file->spacecraft->name, error);
+    }
+    return status == SRP_OK ? check_text(source, "spacecraft.id", file->spacecraft->id, error)
+                            : status;
+}
+
 static srp_status keep_texts(const mission_source *source, srp_mission *mission, srp_error *error) {
     const mission_file *file = mission_source_file(source);
     const mission_output *output = file->output;
@@ -319,7 +341,8 @@ static srp_status read_columns(const mission_source *source, srp_mission *missio
 
 static srp_status build(const mission_source *source, const srp_log *log, srp_mission *mission,
                         srp_error *error) {
-    srp_status status = keep_texts(source, mission, error);
+    srp_status status = check_texts(source, error);
+    status = status == SRP_OK ? keep_texts(source, mission, error) : status;
     status = status == SRP_OK ? read_times(source, log, mission, error) : status;
     status = status == SRP_OK ? read_constants(source, mission, error) : status;
     status = status == SRP_OK ? read_spacecraft(source, mission, error) : status;
