@@ -116,8 +116,8 @@ START_TEST(geo_eclipses_are_all_found) {
 }
 END_TEST
 
-/* The end of the season: the shadow is only grazed, for less than a step; two looks a minute see no
- * more than the events do. */
+/* The end of the season: the last shadows are penumbras alone; two looks a minute see no more than
+ * the events do. */
 START_TEST(grazing_shadows_are_not_missed) {
     static diary d;
     run r = begin("2024-04-08T00:00:00 UTC", 10.0);
@@ -150,6 +150,56 @@ START_TEST(grazing_shadows_are_not_missed) {
     ck_assert_uint_eq(count_of(&d, SRP_EVENT_PENUMBRA_ENTRY), entries[0]);
     ck_assert_uint_eq(count_of(&d, SRP_EVENT_UMBRA_ENTRY), entries[1]);
     srp_propagator_destroy(p);
+    end(&r);
+}
+END_TEST
+
+/* A shadow between two looks: 2 h of an orbit, 8 looks, and a penumbra that is left a minute after
+ * it is entered. The body's size is chosen so. */
+START_TEST(a_brief_shadow_within_a_step_is_found) {
+    run r = begin("2024-03-20T00:00:00 UTC", 0.5);
+    const double a = 42164e3, n = sqrt(FIXTURE_MU / (a * a * a)), t0 = 3000.0, h = 7200.0;
+    const srp_vec3 behind =
+        srp_unit(srp_vec3_scale(-1.0, srp_ephemeris_position(r.sky, SRP_SUN, t0 + 0.53 * h)));
+    const srp_vec3 along = srp_unit(srp_vec3_cross(srp_axis(2), behind));
+    const srp_vec3 tilted =
+        srp_unit(srp_vec3_add_scaled(behind, 0.1, srp_vec3_cross(behind, along)));
+    srp_arc arc = {.t = t0, .h = h};
+    for (int k = 0; k < 2; ++k) {
+        const double phi = n * h * (k - 0.53);
+        arc.r[k] =
+            srp_vec3_add(srp_vec3_scale(a * cos(phi), tilted), srp_vec3_scale(a * sin(phi), along));
+        arc.v[k] = srp_vec3_add(srp_vec3_scale(-a * n * sin(phi), tilted),
+                                srp_vec3_scale(a * n * cos(phi), along));
+        arc.a[k] = srp_vec3_scale(-n * n, arc.r[k]);
+    }
+    srp_edges edges = {r.list, &r.params.shadow, {false}};
+    double share = 0.0, low = 1e6, high = 1e7;
+    for (int i = 0; i < 60; ++i) { /* the size at which the shadow is just touched */
+        r.params.shadow.radius[0] = 0.5 * (low + high);
+        double deepest = -1.0;
+        for (int k = 0; k <= 4000; ++k) {
+            deepest = fmax(deepest, srp_edges_depth(&edges, 0, t0 + h * k / 4000.0,
+                                                    srp_arc_position(&arc, k / 4000.0)));
+        }
+        *(deepest > 0.0 ? &high : &low) = r.params.shadow.radius[0];
+    }
+    r.params.shadow.radius[0] = high * (1.0 - 1e-5);
+    ck_assert_int_eq(srp_edges_first(&edges, &arc, &share), -1);
+    r.params.shadow.radius[0] = high * (1.0 + 1e-5);
+    ck_assert_int_eq(srp_edges_first(&edges, &arc, &share), 0);
+    const double entry = share;
+    edges.inside[0] = true; /* and from there out of it */
+    arc.t = t0;
+    double out = entry;
+    while (srp_edges_depth(&edges, 0, t0 + h * (out + 1e-5), srp_arc_position(&arc, out + 1e-5)) >
+           0.0) {
+        out += 1e-5;
+    }
+    printf("a shadow of %.0f s in a step of %.0f s\n", (out - entry) * h, h);
+    ck_assert((out - entry) * h < h / 8.0 / 2.0);
+    assert_close(srp_edges_depth(&edges, 0, t0 + h * entry, srp_arc_position(&arc, entry)), 0.0,
+                 0.0, 1e-12);
     end(&r);
 }
 END_TEST
@@ -269,6 +319,7 @@ int main(void) {
     TCase *all = tcase_create("events");
     tcase_add_test(all, geo_eclipses_are_all_found);
     tcase_add_test(all, grazing_shadows_are_not_missed);
+    tcase_add_test(all, a_brief_shadow_within_a_step_is_found);
     tcase_add_test(all, leo_has_one_a_revolution);
     tcase_add_test(all, events_are_the_same_backwards);
     tcase_add_test(all, the_moon_eclipses_too);
