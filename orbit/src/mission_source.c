@@ -220,9 +220,12 @@ void mission_warn(const mission_source *source, const srp_log *log, const char *
 
 /* ---- Opening --------------------------------------------------------------------------------- */
 
+/* Mappings that a search goes through: aliases can make a short text endless. */
+enum { VISITS_MAX = 10000 };
+
 /* Keys given twice, which libcyaml lets pass; NULL: none. */
-static yaml_node_t *doubled_key(yaml_document_t *document, yaml_node_t *node, int depth) {
-    if (node->type != YAML_MAPPING_NODE || depth > 8) {
+static yaml_node_t *doubled_key(yaml_document_t *document, yaml_node_t *node, int *left) {
+    if (node->type != YAML_MAPPING_NODE || --*left < 0) {
         return NULL;
     }
     for (yaml_node_pair_t *pair = node->data.mapping.pairs.start;
@@ -234,7 +237,7 @@ static yaml_node_t *doubled_key(yaml_document_t *document, yaml_node_t *node, in
                 value) {
             return key;
         }
-        yaml_node_t *inside = doubled_key(document, value, depth + 1);
+        yaml_node_t *inside = doubled_key(document, value, left);
         if (inside != NULL) {
             return inside;
         }
@@ -244,8 +247,8 @@ static yaml_node_t *doubled_key(yaml_document_t *document, yaml_node_t *node, in
 
 /* The first key of this name at or behind a line, anywhere. */
 static yaml_node_t *find_key(yaml_document_t *document, yaml_node_t *node, const char *name,
-                             size_t line, int depth) {
-    if (node->type != YAML_MAPPING_NODE || depth > 8) {
+                             size_t line, int *left) {
+    if (node->type != YAML_MAPPING_NODE || --*left < 0) {
         return NULL;
     }
     for (yaml_node_pair_t *pair = node->data.mapping.pairs.start;
@@ -255,8 +258,8 @@ static yaml_node_t *find_key(yaml_document_t *document, yaml_node_t *node, const
             strcmp((const char *)key->data.scalar.value, name) == 0) {
             return key;
         }
-        yaml_node_t *inside = find_key(document, yaml_document_get_node(document, pair->value),
-                                       name, line, depth + 1);
+        yaml_node_t *inside =
+            find_key(document, yaml_document_get_node(document, pair->value), name, line, left);
         if (inside != NULL) {
             return inside;
         }
@@ -335,7 +338,8 @@ static srp_status schema_failure(mission_source *source, cyaml_err_t code, srp_e
     yaml_node_t *root = yaml_document_get_root_node(&source->document);
     if (strncmp(source->words, UNKNOWN, sizeof UNKNOWN - 1) == 0) {
         const char *key = source->words + sizeof UNKNOWN - 1;
-        yaml_node_t *at = find_key(&source->document, root, key, line > 0 ? line - 1 : 0, 0);
+        int left = VISITS_MAX;
+        yaml_node_t *at = find_key(&source->document, root, key, line > 0 ? line - 1 : 0, &left);
         if (at != NULL) {
             line = at->start_mark.line + 1;
             column = at->start_mark.column + 1;
@@ -372,8 +376,9 @@ srp_status mission_source_open(const char *text, size_t size, const char *name,
     source->name = name;
     srp_status status = load_document(source, text, size, error);
     if (status == SRP_OK) {
+        int left = VISITS_MAX;
         yaml_node_t *twice =
-            doubled_key(&source->document, yaml_document_get_root_node(&source->document), 0);
+            doubled_key(&source->document, yaml_document_get_root_node(&source->document), &left);
         if (twice != NULL) {
             status = srp_fail_at(error, SRP_BAD_FORMAT, name, twice->start_mark.line + 1,
                                  twice->start_mark.column + 1, "'%s' is given twice",
