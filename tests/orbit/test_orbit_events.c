@@ -78,6 +78,28 @@ static size_t count_of(const diary *d, srp_event_kind kind) {
     return n;
 }
 
+/* A second outside a penumbra the Sun is whole, a second inside it is not; in the umbra nothing of
+ * it is left. Says srp_sunlight_fraction(), which knows nothing of edges. */
+static void check_light(const run *r, const srp_event *e, size_t body) {
+    const srp_shadow alone = {r->params.shadow.sun_radius,
+                              1,
+                              {r->params.shadow.body[body]},
+                              {r->params.shadow.radius[body]}};
+    const bool entry = (e->kind - SRP_EVENT_PENUMBRA_ENTRY) % 2 == 0;
+    double seen[2]; /* outside, inside */
+    for (int k = 0; k < 2; ++k) {
+        const double dt = (k == 1) == entry ? 1.0 : -1.0;
+        srp_vec3 bodies[SRP_CELESTIAL_COUNT];
+        srp_ephemeris_positions(r->sky, SRP_EARTH, e->t + dt, bodies);
+        seen[k] = srp_shadow_fraction(&alone, srp_vec3_add_scaled(e->r, dt, e->v), bodies);
+    }
+    if (e->kind <= SRP_EVENT_PENUMBRA_EXIT) {
+        ck_assert_msg(seen[0] == 1.0 && seen[1] < 1.0, "%g %g", seen[0], seen[1]);
+    } else if (e->kind <= SRP_EVENT_UMBRA_EXIT) {
+        ck_assert_msg(seen[0] > 0.0 && seen[1] == 0.0, "%g %g", seen[0], seen[1]);
+    }
+}
+
 /* Every edge is one: the disks touch there. */
 static void check_edges(const run *r, const diary *d) {
     srp_edges edges = {r->list, &r->params.shadow, {false}};
@@ -93,6 +115,7 @@ static void check_edges(const run *r, const diary *d) {
         }
         const int edge = (int)(3 * body) + (int)(e->kind - SRP_EVENT_PENUMBRA_ENTRY) / 2;
         assert_close(srp_edges_depth(&edges, edge, e->t, e->r), 0.0, 0.0, 1e-9);
+        check_light(r, e, body);
         /* Going in is going deeper. */
         const bool deeper =
             srp_edges_depth(&edges, edge, e->t + 0.1, srp_vec3_add_scaled(e->r, 0.1, e->v)) > 0.0;
