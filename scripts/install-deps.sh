@@ -10,6 +10,8 @@ set -euo pipefail
 BUILD=(gcc g++ cmake ninja-build pkg-config libc6-dev libnetcdf-dev libxxhash-dev)
 # For plates that are fitted, and for figures; CMake goes on without them.
 BUILD+=(libgsl-dev libplplot-dev plplot-driver-cairo)
+# The propagator: sky and time scales, mission files. Without them, too, the rest is built.
+BUILD+=(liberfa-dev libcyaml-dev libyaml-dev)
 TEST=(check libgsl-dev libpng-dev)
 CI=(clang clang-format libomp-dev)
 # Nice to have, and tried once, without a word when that fails but that it did: the yardstick of the

@@ -13,5 +13,8 @@ extern const cli_command cli_command_convert;
 extern const cli_command cli_command_plot;
 extern const cli_command cli_command_compare;
 extern const cli_command cli_command_fit_nplate;
+#ifdef SRP_CLI_HAS_ORBIT /* the propagator was built */
+extern const cli_command cli_command_propagate;
+#endif
 
 #endif

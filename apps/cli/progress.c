@@ -10,6 +10,7 @@ static const double REDRAW_SECONDS = 0.1;
 enum { BAR_MIN = 10, BAR_MAX = 40, LINE_MAX_BYTES = 512 };
 
 void cli_progress_begin(cli_progress *progress) {
+    progress->things = "nodes";
     progress->visible = cli_system_stderr_is_terminal();
     progress->shown = false;
     progress->drawn = false;
@@ -28,7 +29,7 @@ static void format_time(char *buffer, size_t size, double seconds) {
 }
 
 void cli_progress_format(char *buffer, size_t size, int columns, double seconds, size_t done_before,
-                         size_t done, size_t total) {
+                         size_t done, size_t total, const char *things) {
     char left[32] = "", tail[128], bar[BAR_MAX + 1];
     double share = total > 0 ? (double)done / (double)total : 1.0;
     if (done > done_before) {
@@ -37,7 +38,7 @@ void cli_progress_format(char *buffer, size_t size, int columns, double seconds,
     }
     int percent = (int)(100.0 * share);
     int tail_width =
-        snprintf(tail, sizeof tail, "%3d %%  %zu of %zu nodes%s%s%s", percent, done, total,
+        snprintf(tail, sizeof tail, "%3d %%  %zu of %zu %s%s%s%s", percent, done, total, things,
                  left[0] != '\0' ? ", " : "", left, left[0] != '\0' ? " left" : "");
     int room = columns - 1 - tail_width - 3; /* "[", "] " */
     if (room >= BAR_MIN) {
@@ -73,7 +74,7 @@ void cli_progress_show(cli_progress *progress, size_t done, size_t total) {
     }
     char line[LINE_MAX_BYTES];
     cli_progress_format(line, sizeof line, cli_system_stderr_columns(), now - progress->began,
-                        progress->done_at_begin, done, total);
+                        progress->done_at_begin, done, total, progress->things);
     fprintf(stderr, "\r%s\033[K", line);
     fflush(stderr);
     progress->drawn = true;

@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 typedef struct cli_progress {
+    const char *things; /* what is counted: "nodes" unless set after the begin */
     bool visible;       /* stderr is a terminal */
     bool shown, drawn;  /* ever; on the screen now */
     double began, last; /* [s] */
@@ -22,6 +23,6 @@ void cli_progress_clear(cli_progress *progress);
 /* The text of the bar, for `columns` columns (its last one stays free), `seconds` after the begin.
  * Writes at most `size` bytes; empty when there is no room for anything useful. */
 void cli_progress_format(char *buffer, size_t size, int columns, double seconds, size_t done_before,
-                         size_t done, size_t total);
+                         size_t done, size_t total, const char *things);
 
 #endif

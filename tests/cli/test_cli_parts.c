@@ -182,7 +182,7 @@ START_TEST(progress_fits_every_terminal) {
     char line[512];
     for (int columns = 0; columns <= 300; ++columns) {
         for (size_t done = 0; done <= 65341; done += 9334) {
-            cli_progress_format(line, sizeof line, columns, 4000.0, 0, done, 65341);
+            cli_progress_format(line, sizeof line, columns, 4000.0, 0, done, 65341, "nodes");
             ck_assert_msg(columns == 0 || strlen(line) < (size_t)columns, "%d columns: %s", columns,
                           line);
         }
@@ -192,15 +192,15 @@ END_TEST
 
 START_TEST(progress_tells_the_time_left) {
     char line[512];
-    cli_progress_format(line, sizeof line, 100, 10.0, 0, 25, 100);
+    cli_progress_format(line, sizeof line, 100, 10.0, 0, 25, 100, "nodes");
     ck_assert_str_eq(line, "[==========                              ]  25 %  25 of 100 nodes, "
                            "0:30 left");
     /* What a resumed run found says nothing about speed: 25 in 10 s, 50 to go. */
-    cli_progress_format(line, sizeof line, 100, 10.0, 25, 50, 100);
+    cli_progress_format(line, sizeof line, 100, 10.0, 25, 50, 100, "nodes");
     ck_assert_ptr_nonnull(strstr(line, "0:20 left"));
-    cli_progress_format(line, sizeof line, 100, 7200.0, 0, 50, 100);
+    cli_progress_format(line, sizeof line, 100, 7200.0, 0, 50, 100, "nodes");
     ck_assert_ptr_nonnull(strstr(line, "2:00:00 left"));
-    cli_progress_format(line, sizeof line, 100, 5.0, 50, 50, 100);
+    cli_progress_format(line, sizeof line, 100, 5.0, 50, 50, 100, "nodes");
     ck_assert_ptr_null(strstr(line, "left"));
 }
 END_TEST

@@ -2,7 +2,7 @@
 # Each public header compiles alone, as C11 and as C++17, without a warning.
 #   cmake -D INCLUDE=... [-D DEPENDS=...] -D SCRATCH=... -D CC=... -D CXX=... -P headers.cmake
 file(MAKE_DIRECTORY ${SCRATCH})
-file(GLOB headers RELATIVE ${INCLUDE} ${INCLUDE}/srp/*.h)
+file(GLOB headers RELATIVE ${INCLUDE} ${INCLUDE}/srp/*.h ${INCLUDE}/srp/*/*.h)
 if(NOT headers)
   message(FATAL_ERROR "no header in ${INCLUDE}")
 endif()

@@ -36,8 +36,15 @@ forbid("(^|[^a-z_])(printf|puts|putchar|perror|exit|abort|_Exit|assert) *\\("
        "a library does not print or end the program" ${core} ${gl})
 forbid("(^|[^a-z_/])(std(out|err))([^a-z_]|$)" "a library does not print" ${core} ${gl})
 
+file(GLOB orbit ${ROOT}/orbit/src/*.[ch] ${ROOT}/orbit/include/srp/orbit/*.h)
+forbid("^ *# *include *[<\"](apps|gl|plugin|bench|models|tests)/"
+       "orbit depends on srpcore alone" ${orbit})
+forbid("(^|[^a-z_])(printf|puts|putchar|perror|exit|abort|_Exit|assert) *\\("
+       "a library does not print or end the program" ${orbit})
+forbid("(^|[^a-z_/])(std(out|err))([^a-z_]|$)" "a library does not print" ${orbit})
+
 file(GLOB_RECURSE sources
-  ${ROOT}/srpcore/*.[ch] ${ROOT}/gl/*.[ch] ${ROOT}/gl/*.glsl ${ROOT}/apps/*.[ch] ${ROOT}/bench/*.[ch] ${ROOT}/models/*.[ch]
+  ${ROOT}/srpcore/*.[ch] ${ROOT}/gl/*.[ch] ${ROOT}/orbit/*.[ch] ${ROOT}/gl/*.glsl ${ROOT}/apps/*.[ch] ${ROOT}/bench/*.[ch] ${ROOT}/models/*.[ch]
   ${ROOT}/tests/*.[ch] ${ROOT}/tests/*.cpp)
 foreach(file IN LISTS sources)
   file(STRINGS ${file} head LIMIT_COUNT 1)
