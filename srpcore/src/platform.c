@@ -389,7 +389,13 @@ srp_status srp_platform_make_directory(const char *path, srp_error *error) {
         memcpy(part, path, k);
         part[k] = '\0';
         struct stat about;
-        if (mkdir(part, 0700) != 0 && !(stat(part, &about) == 0 && S_ISDIR(about.st_mode))) {
+        if (mkdir(part, 0700) == 0) {
+            continue;
+        }
+        int code = errno;
+        bool exists = stat(part, &about) == 0;
+        if (!exists || !S_ISDIR(about.st_mode)) {
+            errno = exists ? ENOTDIR : code;
             status = fail_write(error, path);
         }
     }
@@ -398,7 +404,7 @@ srp_status srp_platform_make_directory(const char *path, srp_error *error) {
 }
 
 srp_status srp_platform_lock_file(const char *path, double seconds, int *lock, srp_error *error) {
-    const struct timespec pause = {0, 5000000};
+    const struct timespec pause = {0, 1000000};
     const double end = srp_platform_seconds() + seconds;
     int file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (file < 0) {

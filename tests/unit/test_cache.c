@@ -351,14 +351,21 @@ START_TEST(a_full_disk_costs_one_message) {
     srp_cache *cache = open_cache(&params);
     srp_demand *demand = make_demand(&fixture, cache);
     /* As a full disk does, this ends write() with an error. */
-    const struct rlimit little = {1000, RLIM_INFINITY};
+    const struct rlimit little = {1000, RLIM_INFINITY}, any = {RLIM_INFINITY, RLIM_INFINITY};
     signal(SIGXFSZ, SIG_IGN);
     ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &little), 0);
-    need_columns(demand, 0, 13);
+    /* libcheck keeps notes in a file, too: not a word to it before the limit is gone. */
+    srp_status worst = SRP_OK;
+    for (uint32_t k = 0; k < GRID.az_count * GRID.el_count; ++k) {
+        const srp_demand_node node = {k / GRID.el_count, k % GRID.el_count};
+        srp_error error;
+        srp_status status = srp_demand_need(demand, 1, &node, &error);
+        worst = status != SRP_OK ? status : worst;
+    }
+    ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &any), 0);
+    ck_assert_int_eq(worst, SRP_OK);
     assert_is_full(&fixture, demand);
     srp_demand_destroy(demand);
-    const struct rlimit any = {RLIM_INFINITY, RLIM_INFINITY};
-    ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &any), 0);
     ck_assert_int_eq(message_count, 1);
     ck_assert_msg(strstr(last_message, "cannot write: ") != NULL, "%s", last_message);
     srp_cache_close(cache);
@@ -405,12 +412,13 @@ START_TEST(it_stays_below_its_limit) {
     srp_cache_entry *entries = NULL;
     size_t count = 0;
     srp_error error;
-    for (uint64_t seed = 0; seed < 6; ++seed) {
+    for (uint64_t seed = 0; seed < 5; ++seed) {
         srp_method_params how = srp_method_params_default();
         counting_fixture other = fixture;
         how.seed = seed;
-        assert_ok(srp_method_prepare(&counting_method, fixture.scene, &how, &other.prepared, &error),
-                  error);
+        assert_ok(
+            srp_method_prepare(&counting_method, fixture.scene, &how, &other.prepared, &error),
+            error);
         srp_demand *demand = make_demand(&other, cache);
         need_columns(demand, 0, 2);
         srp_demand_destroy(demand);
@@ -432,7 +440,7 @@ START_TEST(it_stays_below_its_limit) {
     ck_assert(entries[0].used >= entries[1].used && entries[1].used >= entries[2].used);
     ck_assert(entries[0].size > 1000 && !entries[0].is_damaged);
     srp_cache_entries_free(entries);
-    /* Seeds 0, 4 and 5 are left: 1, then 2, then 3 went. */
+    /* Seeds 0, 3 and 4 are left: first 1 went, then 2. */
     ck_assert_uint_eq(visit(&fixture, 0, 2), 0);
     srp_cache_close(cache);
     counting_end(&fixture);
@@ -520,7 +528,8 @@ static void fill_and_die(const counting_fixture *fixture, uint64_t seed) {
 
 /* What the file holds; an empty table while there is none. It is readable at all times. */
 static srp_table *committed(const counting_fixture *fixture) {
-    const srp_cache_params params = cache_params();
+    srp_cache_params params = cache_params();
+    params.wait_seconds = 60.0;
     srp_cache *cache = open_cache(&params);
     srp_table *table = NULL;
     srp_error error;
@@ -530,10 +539,17 @@ static srp_table *committed(const counting_fixture *fixture) {
     return table;
 }
 
+/* Whether a process was killed while it wrote; others remove drafts at once when they can. */
+static bool left_a_draft(pid_t process) {
+    char path[160], draft[200];
+    only_table(path);
+    snprintf(draft, sizeof draft, "%s.%ld.tmp", path, (long)process);
+    return access(draft, F_OK) == 0;
+}
+
 /* Nodes that are committed are in the next generation's file as well, and were not computed again:
  * `times` is how often each was answered before this generation. */
-static void compare_generations(const srp_table *before, const srp_table *after,
-                                const int *times) {
+static void compare_generations(const srp_table *before, const srp_table *after, const int *times) {
     for (size_t k = 0; k < srp_grid_node_count(before->grid); ++k) {
         if (before->filled[k]) {
             ck_assert_msg(after->filled[k], "node %zu is lost", k);
@@ -549,16 +565,18 @@ START_TEST(whoever_is_killed_leaves_a_cache_that_others_complete) {
     const size_t size = srp_grid_node_count(grid) * sizeof *counting.answered;
     free(counting.answered);
     /* Counted by all processes together. */
-    counting.answered =
-        mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    counting.answered = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     ck_assert_ptr_ne(counting.answered, MAP_FAILED);
     srp_cache_params params = cache_params();
     params.flush_nodes = 1;
+    params.wait_seconds = 60.0;
+    counting.delay_us = 2000; /* some time without the lock for everybody */
     srp_cache *cache = open_cache(&params);
     srp_demand *survivor = make_demand(&fixture, cache);
     srp_table *before = committed(&fixture);
     int *times = calloc(srp_grid_node_count(grid), sizeof *times);
     uint64_t state = (uint64_t)getpid();
+    int drafts = 0;
     srp_error error;
     for (int kill_number = 0; kill_number < KILLS; ++kill_number) {
         for (size_t k = 0; k < srp_grid_node_count(grid); ++k) {
@@ -584,6 +602,7 @@ START_TEST(whoever_is_killed_leaves_a_cache_that_others_complete) {
         ck_assert_int_eq(kill(child, SIGKILL), 0);
         ck_assert_int_eq(waitpid(child, &status, 0), child);
         ck_assert(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+        drafts += left_a_draft(child);
         srp_table *after = committed(&fixture);
         compare_generations(before, after, times);
         srp_table_destroy(before);
@@ -600,8 +619,9 @@ START_TEST(whoever_is_killed_leaves_a_cache_that_others_complete) {
     ck_assert_uint_eq(srp_demand_count(last).ready, srp_demand_count(last).total);
     assert_is_full(&fixture, last);
     ck_assert_int_eq(message_count, 0);
-    printf("%d kills: %zu of %zu nodes were kept by then, none lost, none computed again\n", KILLS,
-           kept, srp_grid_node_count(grid));
+    printf("%d kills, %d in the middle of writing: %zu of %zu nodes were kept by then, none lost, "
+           "none computed again\n",
+           KILLS, drafts, kept, srp_grid_node_count(grid));
     srp_demand_destroy(last);
     srp_cache_close(cache);
     srp_table_destroy(before);
