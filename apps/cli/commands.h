@@ -13,5 +13,6 @@ extern const cli_command cli_command_convert;
 extern const cli_command cli_command_plot;
 extern const cli_command cli_command_compare;
 extern const cli_command cli_command_fit_nplate;
+extern const cli_command cli_command_cache;
 
 #endif

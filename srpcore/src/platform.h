@@ -69,6 +69,7 @@ void srp_platform_library_close(srp_platform_library *library);
 typedef void (*srp_platform_function)(void);
 srp_platform_function srp_platform_library_function(srp_platform_library *library,
                                                     const char *name);
+
 /* ---- The cache: directories, locks of files ---- */
 
 /* Where programs keep what they can make again: $XDG_CACHE_HOME, else ~/.cache, and in it `name`;
