@@ -75,8 +75,10 @@ static srp_status exchange(srp_demand *demand, bool wait, srp_error *error) {
     srp_status status = srp_cache_run(demand->cache, &job, error);
     srp_platform_monitor_enter(demand->monitor);
     demand->saved = srp_platform_seconds();
-    if (status != SRP_OK) {
-        demand->unsaved += demand->counts.computed > 0; /* so that it is tried again */
+    if (status == SRP_OK) {
+        demand->cache_failed = false;
+    } else {
+        demand->unsaved += demand->counts.computed > 0; /* so that it can be tried again */
     }
     srp_platform_monitor_leave(demand->monitor);
     return status;
