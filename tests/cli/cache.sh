@@ -48,8 +48,11 @@ prints 'set aside'
 prints 'cannot be read: the file is damaged'
 test -n "$file" || fail 'no file in the cache'
 
+expect 0 table --method cannonball --cr 1.5 --area 2 -o h.nc --step 30 --cache
+expect 0 table --method cannonball --cr 1.5 --area 3 -o i.nc --step 30 --cache
+says_not 'from the cache'
 expect 0 cache clear
-prints '4 files removed'
+prints '6 files removed'
 expect 0 cache list
 prints '0 files, '
 

@@ -506,6 +506,46 @@ START_TEST(the_directory_is_that_of_the_user) {
 }
 END_TEST
 
+/* ---- Threads ---- */
+
+/* Two tables of one cache under many threads, written all the time. */
+START_TEST(threads_share_a_cache) {
+    counting_fixture fixture = counting_begin(&counting_method, (srp_grid){25, 13});
+    srp_cache_params params = cache_params();
+    params.flush_nodes = 4;
+    params.wait_seconds = 60.0;
+    srp_cache *cache = open_cache(&params);
+    srp_demand *tables[2] = {make_demand(&fixture, cache), make_demand(&fixture, cache)};
+    atomic_int failures = 0;
+#pragma omp parallel for num_threads(8)
+    for (int thread = 0; thread < 8; ++thread) {
+        uint64_t state = (uint64_t)thread;
+        for (int k = 0; k < 100; ++k) {
+            const srp_demand_node nodes[] = {
+                {(uint32_t)(random_bits(&state) % 25), (uint32_t)(random_bits(&state) % 13)},
+                {(uint32_t)(random_bits(&state) % 25), (uint32_t)(random_bits(&state) % 13)}};
+            srp_error error;
+            failures += srp_demand_need(tables[k % 2], 2, nodes, &error) != SRP_OK;
+            failures += srp_demand_get(tables[k % 2], nodes[1]) == NULL;
+            failures += k % 50 == 25 && srp_demand_flush(tables[k % 2], &error) != SRP_OK;
+        }
+    }
+    ck_assert_int_eq(failures, 0);
+    ck_assert_int_eq(message_count, 0);
+    ck_assert_int_le(counting_most(), 2);
+    for (int k = 0; k < 2; ++k) {
+        need_columns(tables[k], 0, 25);
+        assert_is_full(&fixture, tables[k]);
+        srp_demand_destroy(tables[k]);
+    }
+    srp_demand *again = make_demand(&fixture, cache);
+    ck_assert_uint_eq(srp_demand_count(again).ready, srp_demand_count(again).total);
+    srp_demand_destroy(again);
+    srp_cache_close(cache);
+    counting_end(&fixture);
+}
+END_TEST
+
 /* ---- Killed --------------------------------------------------------------------------------- */
 
 enum { KILLS = 20 };
@@ -649,6 +689,7 @@ int main(void) {
     tcase_add_test(tcase, it_stays_below_its_limit);
     tcase_add_test(tcase, clearing_removes_tables_and_nothing_else);
     tcase_add_test(tcase, the_directory_is_that_of_the_user);
+    tcase_add_test(tcase, threads_share_a_cache);
     tcase_add_test(tcase, whoever_is_killed_leaves_a_cache_that_others_complete);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);
