@@ -143,7 +143,7 @@ static file_kind kind_of(const char *name) {
 
 /* *lock is -1 if the cache is in use and that is no failure. */
 static srp_status take_lock(const srp_cache *cache, bool wait, int *lock, srp_error *error) {
-    char *path;
+    char *path = NULL;
     srp_status status = srp_platform_make_directory(cache->directory, error);
     if (status == SRP_OK) {
         status = path_of(cache, LOCK_NAME, "", &path, error);
@@ -244,7 +244,7 @@ void srp_cache_entries_free(srp_cache_entry *entries) {
 
 /* A file that is gone already is as good. */
 static srp_status remove_file(const srp_cache *cache, const char *name, srp_error *error) {
-    char *path;
+    char *path = NULL;
     srp_status status = path_of(cache, name, "", &path, error);
     if (status != SRP_OK) {
         return status;
@@ -315,7 +315,7 @@ srp_status srp_cache_clear(srp_cache *cache, size_t *removed, srp_error *error) 
 /* Renames a file that cannot be used, and says so. */
 static srp_status set_aside(const srp_cache *cache, const char *path, const char *key,
                             const srp_error *why, srp_error *error) {
-    char *aside;
+    char *aside = NULL;
     srp_status status = path_of(cache, key, ENDING ASIDE, &aside, error);
     if (status != SRP_OK) {
         return status;
@@ -362,7 +362,7 @@ static srp_status read_kept(const srp_cache *cache, const srp_cache_job *job, co
 /* Under the lock. *kept is an empty table to begin with. */
 static srp_status exchange(const srp_cache *cache, const srp_cache_job *job, srp_table **kept,
                            srp_error *error) {
-    char key[KEY_SIZE + 1], *path;
+    char key[KEY_SIZE + 1], *path = NULL;
     size_t drafts = 0;
     srp_table_key(*kept, key);
     srp_status status = path_of(cache, key, ENDING, &path, error);
