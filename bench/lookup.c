@@ -11,6 +11,7 @@
 #include "bench.h"
 
 #include <srp/const.h>
+#include <srp/demand.h>
 #include <srp/interp.h>
 #include <srp/table.h>
 
@@ -84,20 +85,28 @@ static void walk_destroy(walk *w) {
 
 /* ---- The table ------------------------------------------------------------------------------ */
 
-/* Of the box-wing, by `exact`. */
-static srp_table *make_table(void) {
-    srp_mesh *mesh = bench_model("box-wing.obj");
-    srp_scene *scene = bench_scene(mesh, (srp_optics){0.3, 0.2, false});
-    srp_method_params params = srp_method_params_default();
-    srp_prepared *prepared = bench_prepare(&srp_method_exact, scene, &params);
+static const srp_grid GRID = {361, 181};
+
+static srp_table *make_table(const srp_prepared *prepared) {
     srp_table *table = NULL;
     srp_error error;
-    srp_grid grid = {361, 181};
-    bench_require(srp_table_create(prepared, grid, false, &table, &error), &error);
+    bench_require(srp_table_create(prepared, GRID, false, &table, &error), &error);
     bench_require(srp_table_fill(table, prepared, NULL, &error), &error);
-    srp_prepared_release(prepared);
-    srp_scene_destroy(scene);
     return table;
+}
+
+/* One that fills itself, with all nodes there already. */
+static srp_demand *make_demand(const srp_prepared *prepared) {
+    srp_demand *demand = NULL;
+    srp_error error;
+    bench_require(srp_demand_create(prepared, GRID, NULL, &demand, &error), &error);
+    for (uint32_t i = 0; i < GRID.az_count; ++i) {
+        for (uint32_t j = 0; j < GRID.el_count; ++j) {
+            const srp_demand_node node = {i, j};
+            bench_require(srp_demand_need(demand, 1, &node, &error), &error);
+        }
+    }
+    return demand;
 }
 
 /* The same table without moments, by way of a file that has none. */
@@ -262,9 +271,31 @@ static void run(const walk *w, srp_interp *const plain[OURS], srp_interp *const 
     }
 }
 
+/* Look-ups of a table that fills itself, in cells that are ready, beside those of the full one. */
+static void run_on_demand(const walk *w, const srp_interp *full, srp_demand *demand) {
+    srp_interp *interp = NULL;
+    srp_error error;
+    double ours = INFINITY, plain = INFINITY;
+    bench_require(srp_interp_create_on_demand(srp_interp_get_scheme(full), demand, &interp, &error),
+                  &error);
+    (void)time_ours(interp, w, FORCE_MOMENT);
+    for (int round = 0; round < ROUNDS; ++round) {
+        ours = fmin(ours, time_ours(interp, w, FORCE_MOMENT));
+        plain = fmin(plain, time_ours(full, w, FORCE_MOMENT));
+    }
+    printf("  %s on demand, f and t      %6.1f     on the full table %.1f\n",
+           srp_interp_get_scheme(full)->name, 1e9 / DIRECTIONS * ours, 1e9 / DIRECTIONS * plain);
+    srp_interp_destroy(interp);
+}
+
 int main(void) {
     gsl_set_error_handler_off();
-    srp_table *table = make_table(), *forces = without_moments(table);
+    /* The box-wing, by `exact`. */
+    srp_method_params params = srp_method_params_default();
+    srp_scene *scene = bench_scene(bench_model("box-wing.obj"), (srp_optics){0.3, 0.2, false});
+    srp_prepared *prepared = bench_prepare(&srp_method_exact, scene, &params);
+    srp_table *table = make_table(prepared), *forces = without_moments(table);
+    srp_demand *demand = make_demand(prepared);
     size_t count;
     const srp_interp_scheme *const *schemes = srp_interp_list(&count);
     srp_interp *plain[OURS], *full[OURS];
@@ -280,6 +311,8 @@ int main(void) {
     walk walks[2] = {random_walk(), orbit_walk()};
     for (int k = 0; k < 2; ++k) {
         run(&walks[k], plain, full, y);
+        run_on_demand(&walks[k], full[0], demand);
+        run_on_demand(&walks[k], full[1], demand);
         walk_destroy(&walks[k]);
     }
     for (int k = 0; k < OURS; ++k) {
@@ -287,6 +320,9 @@ int main(void) {
         srp_interp_destroy(full[k]);
     }
     yardstick_destroy(y);
+    srp_demand_destroy(demand);
+    srp_prepared_release(prepared);
+    srp_scene_destroy(scene);
     srp_table_destroy(table);
     srp_table_destroy(forces);
     return isfinite(sink) ? EXIT_SUCCESS : EXIT_FAILURE;

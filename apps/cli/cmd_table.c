@@ -10,6 +10,7 @@
 #include "system.h"
 #include "utf8.h"
 
+#include <srp/cache.h>
 #include <srp/table.h>
 
 #include <math.h>
@@ -27,6 +28,7 @@ enum {
     TABLE_BASIS,
     TABLE_TITLE,
     TABLE_RESTART,
+    TABLE_CACHE,
     TABLE_CHECK,
     TABLE_MAX_ERROR,
     TABLE_INTERPOLATION,
@@ -38,7 +40,7 @@ typedef struct table_options {
     cli_list outputs;
     double step, az_step, el_step, mass, flux;
     const char *title; /* NULL = names of the model */
-    bool basis, restart;
+    bool basis, restart, cache;
     uint32_t check;
     double max_error;          /* NAN = the step is given */
     const char *interpolation; /* what max_error is about */
@@ -101,6 +103,11 @@ static const cli_option OPTIONS[TABLE_OPTION_COUNT] = {
                                "beginning.",
                        .set = cli_set_flag,
                        .offset = offsetof(table_options, restart)},
+    [TABLE_CACHE] = {.name = "cache",
+                     .help = "Take nodes that are remembered, and remember those that are computed "
+                             "('srp cache').",
+                     .set = cli_set_flag,
+                     .offset = offsetof(table_options, cache)},
     [TABLE_CHECK] = {.name = "check",
                      .value = "N",
                      .help = "Compute N directions between the nodes, and keep in the .nc how far "
@@ -148,6 +155,7 @@ typedef struct table_job {
     double saved; /* time of the last checkpoint [s] */
     bool save_failed;
     cli_interp_check check;
+    srp_cache *cache; /* NULL: none asked for, or it cannot be used */
 } table_job;
 
 /* Whether the step is for us to choose; such a run keeps nothing when it is interrupted. */
@@ -303,6 +311,44 @@ static int open_table(table_job *job) {
     return status;
 }
 
+/* ---- the cache ---- */
+
+/* A cache that cannot be used costs a warning, and time. */
+static void give_cache_up(table_job *job, const srp_error *why) {
+    cli_output_error(why);
+    cli_say("warning: the run goes on without the cache");
+    srp_cache_close(job->cache);
+    job->cache = NULL;
+}
+
+static void open_cache(table_job *job) {
+    const srp_cache_params params = srp_cache_params_default();
+    srp_log log = cli_log();
+    srp_error error;
+    if (job->options->cache && srp_cache_open(&params, &log, &job->cache, &error) != SRP_OK) {
+        job->cache = NULL;
+        give_cache_up(job, &error);
+    }
+}
+
+/* Takes what is remembered, and has what is new remembered. */
+static void exchange_nodes(table_job *job) {
+    size_t before = srp_table_filled_count(job->table);
+    srp_error error;
+    if (job->cache == NULL) {
+        return;
+    }
+    if (srp_cache_exchange(job->cache, job->loaded.prepared, job->table, NULL, &error) != SRP_OK) {
+        give_cache_up(job, &error);
+        return;
+    }
+    size_t after = srp_table_filled_count(job->table);
+    if (after > before) {
+        cli_say("%zu of %zu nodes come from the cache", after - before,
+                srp_grid_node_count(job->grid));
+    }
+}
+
 /* ---- computing ---- */
 
 static bool save_partial(table_job *job, const srp_table *table, srp_error *error) {
@@ -423,7 +469,11 @@ static int begin_check(table_job *job) {
 static int compute(table_job *job) {
     int status = open_table(job);
     if (status == CLI_DONE) {
+        exchange_nodes(job);
         status = fill(job);
+    }
+    if (status == CLI_DONE) {
+        exchange_nodes(job);
     }
     if (status == CLI_DONE && job->check.count > 0) {
         status = cli_interp_check_table(&job->check, job->table);
@@ -479,6 +529,7 @@ static int make_table(table_job *job) {
     }
     if (status == CLI_DONE) {
         status = begin_check(job);
+        open_cache(job);
     }
     if (status == CLI_DONE) {
         status = chooses_step(job) ? compute_by_error(job) : compute(job);
@@ -488,6 +539,7 @@ static int make_table(table_job *job) {
     }
     srp_table_destroy(job->table);
     cli_interp_check_end(&job->check);
+    srp_cache_close(job->cache);
     cli_model_release(&job->loaded);
     free(job->title);
     free(job->stored_command_line);
@@ -539,7 +591,9 @@ const cli_command cli_command_table = {
         "Everything that can be checked is checked before the computing begins. A run that is "
         "interrupted (Ctrl-C) leaves its nodes in a file FIRST_OUTPUT.partial, and so does every "
         "half minute of a long one; the same command again goes on from there and gives the same "
-        "table. A run that chooses its step (--max-error) begins anew.\n\n"
+        "table. A run that chooses its step (--max-error) begins anew. With --cache a run takes "
+        "the nodes "
+        "that earlier runs have remembered, and gives the same table.\n\n"
         "Between nodes a table is interpolated. --check and --max-error compare that with what the "
         "method gives in other directions.",
     .examples = "srp table box-wing.obj -o box-wing.nc -o box-wing.spo\n"

@@ -70,6 +70,7 @@ struct cli_command {
     const char *name;
     const char *operands;      /* as the usage line shows them */
     const char *operand_files; /* completion: endings of file names, separated by blanks; "" any */
+    const char *operand_words; /* completion: words instead of files; NULL: files */
     const char *summary;       /* one line */
     const char *description;   /* paragraphs, separated by "\n\n" */
     const char *examples;      /* command lines, separated by "\n" */

@@ -16,5 +16,6 @@ extern const cli_command cli_command_fit_nplate;
 #ifdef SRP_CLI_HAS_ORBIT /* the propagator was built */
 extern const cli_command cli_command_propagate;
 #endif
+extern const cli_command cli_command_cache;
 
 #endif

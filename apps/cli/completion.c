@@ -60,7 +60,11 @@ static void put_case(FILE *out, const cli_command *command) {
     each_option(command, put_values, out);
     fputs("        esac\n        options='", out);
     each_option(command, put_name, out);
-    fprintf(out, "'\n        endings='%s'\n        ;;\n", command->operand_files);
+    if (command->operand_words != NULL) {
+        fprintf(out, "'\n        operands='%s'\n        ;;\n", command->operand_words);
+    } else {
+        fprintf(out, "'\n        endings='%s'\n        ;;\n", command->operand_files);
+    }
 }
 
 static const char COMPLETION_HEAD[] =
@@ -90,7 +94,7 @@ static const char COMPLETION_HEAD[] =
     "\n"
     "_srp() {\n"
     "    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
-    "    local options endings\n"
+    "    local options endings operands=\n"
     "    COMPREPLY=()\n"
     "    # bash takes '=' as a word of its own: --method=ex is three words.\n"
     "    if [ \"$word\" = = ]; then\n"
@@ -106,7 +110,13 @@ static const char COMPLETION_TAIL[] = "    *)\n"
                                       "    esac\n"
                                       "    case $word in\n"
                                       "    -*) _srp_words \"$options\" ;;\n"
-                                      "    *) _srp_files \"$endings\" ;;\n"
+                                      "    *)\n"
+                                      "        if [ -n \"$operands\" ]; then\n"
+                                      "            _srp_words \"$operands\"\n"
+                                      "        else\n"
+                                      "            _srp_files \"$endings\"\n"
+                                      "        fi\n"
+                                      "        ;;\n"
                                       "    esac\n"
                                       "}\n"
                                       "\n"

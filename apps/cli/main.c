@@ -18,6 +18,7 @@ static const cli_command *const COMMANDS[] = {
 #ifdef SRP_CLI_HAS_ORBIT
     &cli_command_propagate,
 #endif
+    &cli_command_cache,
 };
 
 const cli_command *const *cli_command_list(size_t *count) {

@@ -46,25 +46,34 @@ static void put_vec3(double *at, srp_vec3 v) {
     at[2] = v.z;
 }
 
-/* Column i may be the last one, which says the same as the first. */
-static srp_status copy_column(srp_interp *interp, const srp_table *table, uint32_t i, double *out,
-                              srp_error *error) {
-    memset(out, 0, srp_interp_column_size(interp) * sizeof *out);
-    for (uint32_t j = 0; j <= interp->rows; ++j) {
-        const srp_response *node = srp_table_node(table, i, j);
-        if (!(srp_vec3_is_finite(node->f) && srp_vec3_is_finite(node->t))) {
-            srp_grid grid = srp_table_grid(table);
-            return srp_fail(error, SRP_BAD_DATA,
-                            "the node at azimuth %g, elevation %g degrees is not finite",
-                            srp_grid_azimuth_deg(grid, i), srp_grid_elevation_deg(grid, j));
-        }
-        double *at = out + ((size_t)j + 1) * interp->width;
-        put_vec3(at, node->f);
-        if (interp->has_moment) {
-            put_vec3(at + SRP_INTERP_T, node->t);
-        }
+/* Node (i, j) of the grid to `at`. */
+static srp_status put_response(const srp_interp *interp, srp_grid grid, uint32_t i, uint32_t j,
+                               const srp_response *node, double *at, srp_error *error) {
+    if (!(srp_vec3_is_finite(node->f) && srp_vec3_is_finite(node->t))) {
+        return srp_fail(error, SRP_BAD_DATA,
+                        "the node at azimuth %g, elevation %g degrees is not finite",
+                        srp_grid_azimuth_deg(grid, i), srp_grid_elevation_deg(grid, j));
+    }
+    put_vec3(at, node->f);
+    if (interp->has_moment) {
+        put_vec3(at + SRP_INTERP_T, node->t);
     }
     return SRP_OK;
+}
+
+/* Column i may be the last one, which says the same as the first. Empty nodes are 0. */
+static srp_status copy_column(srp_interp *interp, const srp_table *table, uint32_t i, double *out,
+                              srp_error *error) {
+    srp_status status = SRP_OK;
+    memset(out, 0, srp_interp_column_size(interp) * sizeof *out);
+    for (uint32_t j = 0; j <= interp->rows && status == SRP_OK; ++j) {
+        const srp_response *node = srp_table_node(table, i, j);
+        if (node != NULL) {
+            status = put_response(interp, srp_table_grid(table), i, j, node,
+                                  out + ((size_t)j + 1) * interp->width, error);
+        }
+    }
+    return status;
 }
 
 /* Adds `factor` times the difference to `other`, so that equal numbers stay as they are. */
@@ -109,16 +118,16 @@ static srp_status copy_nodes(srp_interp *interp, const srp_table *table, srp_err
 
 void srp_interp_repeat_columns(srp_interp *interp) {
     size_t bytes = srp_interp_column_size(interp) * sizeof *interp->nodes;
-    long n = (long)interp->columns;
-    memcpy(srp_interp_node(interp, -1, -1), srp_interp_node(interp, n - 1, -1), bytes);
-    memcpy(srp_interp_node(interp, n, -1), srp_interp_node(interp, 0, -1), bytes);
-    memcpy(srp_interp_node(interp, n + 1, -1), srp_interp_node(interp, n > 1 ? 1 : 0, -1), bytes);
+    const long columns[] = {-1, (long)interp->columns, (long)interp->columns + 1};
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; ++k) {
+        long from = srp_interp_repeated(interp, columns[k]);
+        memcpy(srp_interp_node(interp, columns[k], -1), srp_interp_node(interp, from, -1), bytes);
+    }
 }
 
 /* ---- The linear part ------------------------------------------------------------------------ */
 
-/* The six nodes nearest to the axes. */
-static void nodes_near_axes(const srp_interp *interp, uint32_t at[6][2]) {
+void srp_interp_axis_nodes(const srp_interp *interp, uint32_t at[6][2]) {
     uint32_t n = interp->columns, middle = interp->rows / 2;
     for (uint32_t k = 0; k < 4; ++k) {
         at[k][0] = ((k + 2) * n + 2) / 4 % n;
@@ -167,7 +176,7 @@ static void solve(double a[4][4], double x[4][SRP_INTERP_WIDTH_FT]) {
 static void fit_linear(srp_interp *interp, srp_grid grid) {
     uint32_t at[6][2];
     double normal[4][4] = {{0.0}};
-    nodes_near_axes(interp, at);
+    srp_interp_axis_nodes(interp, at);
     memset(interp->linear, 0, sizeof interp->linear);
     for (int node = 0; node < 6; ++node) {
         srp_vec3 s = srp_grid_direction(grid, at[node][0], at[node][1]);
@@ -185,15 +194,19 @@ static void fit_linear(srp_interp *interp, srp_grid grid) {
     solve(normal, interp->linear);
 }
 
+static void take_linear_off_node(srp_interp *interp, srp_grid grid, uint32_t i, uint32_t j) {
+    srp_vec3 s = srp_grid_direction(grid, i, j);
+    double *value = srp_interp_node(interp, (long)i, (long)j);
+    for (size_t k = 0; k < interp->width; ++k) {
+        value[k] -= interp->linear[0][k] + s.x * interp->linear[1][k] + s.y * interp->linear[2][k] +
+                    s.z * interp->linear[3][k];
+    }
+}
+
 static void take_linear_off(srp_interp *interp, srp_grid grid) {
     for (uint32_t i = 0; i < interp->columns; ++i) {
         for (uint32_t j = 0; j <= interp->rows; ++j) {
-            srp_vec3 s = srp_grid_direction(grid, i, j);
-            double *value = srp_interp_node(interp, (long)i, (long)j);
-            for (size_t k = 0; k < interp->width; ++k) {
-                value[k] -= interp->linear[0][k] + s.x * interp->linear[1][k] +
-                            s.y * interp->linear[2][k] + s.z * interp->linear[3][k];
-            }
+            take_linear_off_node(interp, grid, i, j);
         }
     }
     memcpy(interp->poles[0].value, srp_interp_node(interp, 0, 0),
@@ -215,6 +228,11 @@ static uint32_t slope_nodes(uint32_t columns) {
     return columns;
 }
 
+uint32_t srp_interp_slope_nodes(const srp_interp *interp) {
+    uint32_t count = slope_nodes(interp->columns);
+    return count < 3 ? 0 : count; /* no first harmonic in fewer */
+}
+
 void srp_interp_column_direction(const srp_interp *interp, uint32_t i, double *cosine,
                                  double *sine) {
     srp_vec3 s = srp_direction_from_deg(360.0 * i / interp->columns - 180.0, 0.0);
@@ -223,10 +241,11 @@ void srp_interp_column_direction(const srp_interp *interp, uint32_t i, double *c
 }
 
 void srp_interp_fit_slopes(srp_interp *interp) {
-    uint32_t count = slope_nodes(interp->columns), step = interp->columns / count;
-    if (count < 3) {
-        return; /* no first harmonic in that: 0 */
+    uint32_t count = srp_interp_slope_nodes(interp);
+    if (count == 0) {
+        return;
     }
+    uint32_t step = interp->columns / count;
     for (int north = 0; north < 2; ++north) {
         srp_interp_pole *pole = &interp->poles[north];
         long j = north ? (long)interp->rows - 1 : 1;
@@ -288,14 +307,8 @@ static srp_status set_up(srp_interp *interp, const srp_interp_scheme *scheme,
     return status == SRP_OK ? scheme->prepare(interp, error) : status;
 }
 
-static srp_status check_table(const srp_interp_scheme *scheme, const srp_table *table,
-                              srp_error *error) {
-    srp_grid grid = srp_table_grid(table);
-    if (!srp_table_is_complete(table)) {
-        return srp_fail(error, SRP_BAD_ARGUMENT,
-                        "the table holds %zu of %zu nodes, expected a complete one",
-                        srp_table_filled_count(table), srp_grid_node_count(grid));
-    }
+srp_status srp_interp_check_steps(const srp_interp_scheme *scheme, srp_grid grid,
+                                  srp_error *error) {
     if (grid.az_count - 1 < scheme->steps_min || 2 * (grid.el_count - 1) < scheme->steps_min) {
         return srp_fail(error, SRP_BAD_ARGUMENT,
                         "steps of %g x %g degrees, %s takes at most %g degrees",
@@ -307,7 +320,17 @@ static srp_status check_table(const srp_interp_scheme *scheme, const srp_table *
 
 srp_status srp_interp_create(const srp_interp_scheme *scheme, const srp_table *table,
                              srp_interp **out, srp_error *error) {
-    srp_status status = check_table(scheme, table, error);
+    if (!srp_table_is_complete(table)) {
+        return srp_fail(error, SRP_BAD_ARGUMENT,
+                        "the table holds %zu of %zu nodes, expected a complete one",
+                        srp_table_filled_count(table), srp_grid_node_count(srp_table_grid(table)));
+    }
+    return srp_interp_create_partial(scheme, table, out, error);
+}
+
+srp_status srp_interp_create_partial(const srp_interp_scheme *scheme, const srp_table *table,
+                                     srp_interp **out, srp_error *error) {
+    srp_status status = srp_interp_check_steps(scheme, srp_table_grid(table), error);
     if (status != SRP_OK) {
         return status;
     }
@@ -324,8 +347,44 @@ srp_status srp_interp_create(const srp_interp_scheme *scheme, const srp_table *t
     return SRP_OK;
 }
 
+/* To the columns before the first and behind the last, if they repeat this one. */
+static void repeat_node(srp_interp *interp, long i, long j) {
+    const long columns[] = {-1, (long)interp->columns, (long)interp->columns + 1};
+    const double *from = srp_interp_node(interp, i, j);
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; ++k) {
+        if (srp_interp_repeated(interp, columns[k]) == i) {
+            memcpy(srp_interp_node(interp, columns[k], j), from, interp->width * sizeof *from);
+        }
+    }
+}
+
+srp_status srp_interp_put_node(srp_interp *interp, srp_grid grid, uint32_t i, uint32_t j,
+                               const srp_response *response, srp_error *error) {
+    const srp_interp_scheme *scheme = interp->scheme;
+    double *at = srp_interp_node(interp, (long)i, (long)j);
+    srp_status status = put_response(interp, grid, i, j, response, at, error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    if (i == 0) {
+        draw_towards(at, at, 0.5, interp->width); /* as in copy_nodes(), to the sign of 0 */
+    }
+    if (scheme->capabilities & SRP_INTERP_LINEAR) {
+        take_linear_off_node(interp, grid, i, j);
+    }
+    repeat_node(interp, (long)i, (long)j);
+    for (int north = 0; scheme->extend != NULL && north < 2; ++north) {
+        if (j == (north ? interp->rows - 1 : 1)) {
+            scheme->extend(interp, i, north);
+            repeat_node(interp, (long)i, north ? (long)interp->rows + 1 : -1);
+        }
+    }
+    return SRP_OK;
+}
+
 void srp_interp_destroy(srp_interp *interp) {
     if (interp != NULL) {
+        srp_interp_supply_destroy(interp->supply);
         free(interp->nodes);
         free(interp);
     }
@@ -344,6 +403,12 @@ bool srp_interp_has_moment(const srp_interp *interp) {
 srp_status srp_interp_eval(const srp_interp *interp, srp_vec3 s_body, srp_vec3 *f, srp_vec3 *t,
                            srp_interp_jacobian *jacobian, srp_error *error) {
     srp_interp_target to = {f, t, jacobian};
+    if (interp->supply != NULL) {
+        srp_status status = srp_interp_supply_at(interp, &s_body, error);
+        if (status != SRP_OK) {
+            return status;
+        }
+    }
     if (interp->scheme->eval(interp, &s_body, &to)) {
         return SRP_OK;
     }

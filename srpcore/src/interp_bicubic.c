@@ -7,27 +7,27 @@
 #include "interp_cubic.h"
 
 /* Row beyond a pole: such that the slope at the pole is that of the fit. */
-static void extend_rows(srp_interp *interp) {
-    for (int north = 0; north < 2; ++north) {
-        const srp_interp_pole *pole = &interp->poles[north];
-        long next = north ? (long)interp->rows - 1 : 1;
-        long beyond = north ? (long)interp->rows + 1 : -1;
-        for (uint32_t i = 0; i < interp->columns; ++i) {
-            double cosine, sine;
-            srp_interp_column_direction(interp, i, &cosine, &sine);
-            const double *from = srp_interp_node(interp, (long)i, next);
-            double *to = srp_interp_node(interp, (long)i, beyond);
-            for (size_t k = 0; k < interp->width; ++k) {
-                to[k] = from[k] - 2.0 * (pole->slope[0][k] * cosine + pole->slope[1][k] * sine);
-            }
-        }
+static void extend(srp_interp *interp, uint32_t i, int north) {
+    const srp_interp_pole *pole = &interp->poles[north];
+    long next = north ? (long)interp->rows - 1 : 1;
+    long beyond = north ? (long)interp->rows + 1 : -1;
+    double cosine, sine;
+    srp_interp_column_direction(interp, i, &cosine, &sine);
+    const double *from = srp_interp_node(interp, (long)i, next);
+    double *to = srp_interp_node(interp, (long)i, beyond);
+    for (size_t k = 0; k < interp->width; ++k) {
+        to[k] = from[k] - 2.0 * (pole->slope[0][k] * cosine + pole->slope[1][k] * sine);
     }
 }
 
 static srp_status prepare(srp_interp *interp, srp_error *error) {
     (void)error;
     srp_interp_fit_slopes(interp);
-    extend_rows(interp);
+    for (int north = 0; north < 2; ++north) {
+        for (uint32_t i = 0; i < interp->columns; ++i) {
+            extend(interp, i, north);
+        }
+    }
     srp_interp_repeat_columns(interp);
     return SRP_OK;
 }
@@ -122,6 +122,8 @@ const srp_interp_scheme srp_interp_bicubic = {
     .order = 3,
     .capabilities = SRP_INTERP_LOCAL | SRP_INTERP_LINEAR,
     .steps_min = 4,
+    .reach = 1,
     .prepare = prepare,
     .eval = eval,
+    .extend = extend,
 };

@@ -20,6 +20,9 @@ typedef struct srp_interp_pole {
     double curve[3][SRP_INTERP_WIDTH_FT]; /* 0 for schemes that have no use for it */
 } srp_interp_pole;
 
+/* Where the nodes of an interpolant on demand come from (interp_demand.c). */
+typedef struct srp_interp_supply srp_interp_supply;
+
 struct srp_interp {
     const srp_interp_scheme *scheme;
     bool has_moment;
@@ -36,7 +39,8 @@ struct srp_interp {
     double *nodes;
     /* linear[0] + s_x linear[1] + s_y linear[2] + s_z linear[3] has been taken off the nodes. */
     double linear[4][SRP_INTERP_WIDTH_FT];
-    srp_interp_pole poles[2]; /* south, north */
+    srp_interp_pole poles[2];  /* south, north */
+    srp_interp_supply *supply; /* NULL: all nodes are there */
 };
 
 /* Where a direction lies. */
@@ -65,10 +69,9 @@ typedef struct srp_interp_stencil {
     size_t column;
 } srp_interp_stencil;
 
-/* Those of cell (i, j). All schemes get at nodes here and nowhere else, so that this is the place
- * where a table that is being filled can be asked for them. Besides these, the local schemes need
- * the poles, bicubic the six nodes of the linear part, and cells with a pole those that
- * srp_interp_fit_slopes() looks at. */
+/* Those of cell (i, j), of which a local scheme looks at the inner ones as far as its `reach` says.
+ * Besides these, the local schemes need the poles, bicubic the six nodes of the linear part, and
+ * cells with a pole those that srp_interp_fit_slopes() looks at: interp_demand.c asks for them. */
 static inline srp_interp_stencil srp_interp_stencil_of(const srp_interp *interp, uint32_t i,
                                                        uint32_t j) {
     size_t column = srp_interp_column_size(interp);
@@ -88,5 +91,32 @@ void srp_interp_column_direction(const srp_interp *interp, uint32_t i, double *c
 
 /* Fills the columns before the first and behind the last. */
 void srp_interp_repeat_columns(srp_interp *interp);
+
+/* Column of the grid that column -1, columns or columns + 1 repeats. */
+static inline long srp_interp_repeated(const srp_interp *interp, long column) {
+    const long n = (long)interp->columns;
+    return column < 0 ? n - 1 : column == n || n == 1 ? 0 : 1;
+}
+
+/* SRP_BAD_ARGUMENT where the steps are too large for the scheme. */
+srp_status srp_interp_check_steps(const srp_interp_scheme *scheme, srp_grid grid, srp_error *error);
+/* Makes an interpolant of the nodes that `table` holds; the others are to be given by
+ * srp_interp_put_node(). SRP_BAD_ARGUMENT (steps), SRP_BAD_DATA, SRP_NO_MEMORY. */
+srp_status srp_interp_create_partial(const srp_interp_scheme *scheme, const srp_table *table,
+                                     srp_interp **out, srp_error *error);
+/* Puts a node into its place, and into those that repeat it or follow from it. Not for poles, and
+ * once for each node. SRP_BAD_DATA (not finite). */
+srp_status srp_interp_put_node(srp_interp *interp, srp_grid grid, uint32_t i, uint32_t j,
+                               const srp_response *response, srp_error *error);
+
+/* The six nodes nearest to the axes, which the linear part is fitted to. */
+void srp_interp_axis_nodes(const srp_interp *interp, uint32_t at[6][2]);
+/* How many nodes of the rows next to the poles slopes are fitted to: every (columns / count)-th; 0
+ * where there are too few. */
+uint32_t srp_interp_slope_nodes(const srp_interp *interp);
+
+/* Sees to it that what a look-up at `s` needs is there; SRP_OK also where s is no direction. */
+srp_status srp_interp_supply_at(const srp_interp *interp, const srp_vec3 *s, srp_error *error);
+void srp_interp_supply_destroy(srp_interp_supply *supply);
 
 #endif

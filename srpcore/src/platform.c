@@ -5,16 +5,20 @@
 
 #include "error.h"
 
+#include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <locale.h>
+#include <pthread.h>
 #include <sched.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 int srp_platform_processor_count(void) {
@@ -70,6 +74,73 @@ srp_platform_function srp_platform_library_function(srp_platform_library *librar
     return function;
 }
 
+/* ---- Threads and time ----------------------------------------------------------------------- */
+
+struct srp_platform_monitor {
+    pthread_mutex_t lock;
+    pthread_cond_t bell;
+};
+
+srp_platform_monitor *srp_platform_monitor_create(void) {
+    srp_platform_monitor *monitor = malloc(sizeof *monitor);
+    if (monitor == NULL) {
+        return NULL;
+    }
+    if (pthread_mutex_init(&monitor->lock, NULL) != 0) {
+        free(monitor);
+        return NULL;
+    }
+    if (pthread_cond_init(&monitor->bell, NULL) != 0) {
+        pthread_mutex_destroy(&monitor->lock);
+        free(monitor);
+        return NULL;
+    }
+    return monitor;
+}
+
+void srp_platform_monitor_destroy(srp_platform_monitor *monitor) {
+    if (monitor != NULL) {
+        pthread_cond_destroy(&monitor->bell);
+        pthread_mutex_destroy(&monitor->lock);
+        free(monitor);
+    }
+}
+
+void srp_platform_monitor_enter(srp_platform_monitor *monitor) {
+    pthread_mutex_lock(&monitor->lock);
+}
+
+void srp_platform_monitor_leave(srp_platform_monitor *monitor) {
+    pthread_mutex_unlock(&monitor->lock);
+}
+
+void srp_platform_monitor_wait(srp_platform_monitor *monitor) {
+    pthread_cond_wait(&monitor->bell, &monitor->lock);
+}
+
+void srp_platform_monitor_ring(srp_platform_monitor *monitor) {
+    pthread_cond_broadcast(&monitor->bell);
+}
+
+/* Guards state that is not ours: that of NetCDF and HDF5, which are one per process. */
+static pthread_mutex_t netcdf_lock = PTHREAD_MUTEX_INITIALIZER;
+
+void srp_platform_netcdf_enter(void) {
+    pthread_mutex_lock(&netcdf_lock);
+}
+
+void srp_platform_netcdf_leave(void) {
+    pthread_mutex_unlock(&netcdf_lock);
+}
+
+double srp_platform_seconds(void) {
+    struct timespec now = {0, 0};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* ---- Numbers in text ------------------------------------------------------------------------ */
+
 srp_c_locale srp_platform_c_locale_enter(void) {
     srp_c_locale state = {NULL, NULL};
     locale_t ours = newlocale(LC_NUMERIC_MASK, "C", duplocale(uselocale((locale_t)0)));
@@ -86,6 +157,8 @@ void srp_platform_c_locale_leave(srp_c_locale state) {
         freelocale((locale_t)state.ours);
     }
 }
+
+/* ---- Files ---------------------------------------------------------------------------------- */
 
 srp_status srp_platform_fail_errno(srp_error *error, const char *path, const char *what) {
     int code = errno;
@@ -277,4 +350,120 @@ srp_status srp_platform_write_file(const char *path, const char *bytes, size_t s
         return status;
     }
     return srp_platform_draft_commit(&draft, error);
+}
+
+/* ---- The cache ------------------------------------------------------------------------------ */
+
+srp_status srp_platform_cache_directory(const char *name, char **out, srp_error *error) {
+    const char *home = getenv("XDG_CACHE_HOME"), *below = "";
+    /* "All paths set in these environment variables must be absolute", says the specification. */
+    if (home == NULL || home[0] != '/') {
+        home = getenv("HOME");
+        below = "/.cache";
+    }
+    if (home == NULL || home[0] != '/') {
+        return srp_fail(error, SRP_NOT_FOUND,
+                        "no directory for the cache: neither XDG_CACHE_HOME nor HOME is set");
+    }
+    size_t size = strlen(home) + strlen(below) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path == NULL) {
+        return srp_fail(error, SRP_NO_MEMORY, "no memory for a path of %zu bytes", size);
+    }
+    snprintf(path, size, "%s%s/%s", home, below, name);
+    *out = path;
+    return SRP_OK;
+}
+
+srp_status srp_platform_make_directory(const char *path, srp_error *error) {
+    size_t length = strlen(path);
+    char *part = malloc(length + 1);
+    if (part == NULL) {
+        return srp_fail_at(error, SRP_NO_MEMORY, path, 0, 0, "no memory");
+    }
+    srp_status status = SRP_OK;
+    for (size_t k = 1; k <= length && status == SRP_OK; ++k) {
+        if (path[k] != '/' && path[k] != '\0') {
+            continue;
+        }
+        memcpy(part, path, k);
+        part[k] = '\0';
+        struct stat about;
+        if (mkdir(part, 0700) == 0) {
+            continue;
+        }
+        int code = errno;
+        bool exists = stat(part, &about) == 0;
+        if (!exists || !S_ISDIR(about.st_mode)) {
+            errno = exists ? ENOTDIR : code;
+            status = fail_write(error, path);
+        }
+    }
+    free(part);
+    return status;
+}
+
+srp_status srp_platform_lock_file(const char *path, double seconds, int *lock, srp_error *error) {
+    const struct timespec pause = {0, 1000000};
+    const double end = srp_platform_seconds() + seconds;
+    int file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (file < 0) {
+        return fail_write(error, path);
+    }
+    while (flock(file, LOCK_EX | LOCK_NB) != 0) {
+        if (errno != EWOULDBLOCK && errno != EINTR) {
+            srp_status status = srp_platform_fail_errno(error, path, "lock");
+            close(file);
+            return status;
+        }
+        if (srp_platform_seconds() >= end) {
+            close(file);
+            *lock = -1;
+            return SRP_OK;
+        }
+        nanosleep(&pause, NULL);
+    }
+    *lock = file;
+    return SRP_OK;
+}
+
+void srp_platform_unlock_file(int lock) {
+    close(lock);
+}
+
+srp_status srp_platform_list_files(const char *path,
+                                   bool (*see)(void *user, const srp_platform_file *file),
+                                   void *user, srp_error *error) {
+    DIR *directory = opendir(path);
+    if (directory == NULL) {
+        return srp_platform_fail_errno(error, path, "list");
+    }
+    for (bool more = true; more;) {
+        const struct dirent *entry = readdir(directory);
+        struct stat about;
+        if (entry == NULL) {
+            break;
+        }
+        if (fstatat(dirfd(directory), entry->d_name, &about, AT_SYMLINK_NOFOLLOW) == 0 &&
+            S_ISREG(about.st_mode)) {
+            srp_platform_file file = {entry->d_name, (uint64_t)about.st_size,
+                                      (int64_t)about.st_mtim.tv_sec * 1000000000 +
+                                          about.st_mtim.tv_nsec};
+            more = see(user, &file);
+        }
+    }
+    closedir(directory);
+    return SRP_OK;
+}
+
+void srp_platform_touch_file(const char *path) {
+    (void)utimensat(AT_FDCWD, path, NULL, 0);
+}
+
+srp_status srp_platform_remove_file(const char *path, srp_error *error) {
+    return unlink(path) == 0 ? SRP_OK : srp_platform_fail_errno(error, path, "remove");
+}
+
+srp_status srp_platform_rename_file(const char *from, const char *to, srp_error *error) {
+    return rename(from, to) == 0 ? SRP_OK : srp_platform_fail_errno(error, from, "rename");
 }

@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 /* Processors that this process may use, at least 1. */
@@ -68,6 +69,55 @@ void srp_platform_library_close(srp_platform_library *library);
 typedef void (*srp_platform_function)(void);
 srp_platform_function srp_platform_library_function(srp_platform_library *library,
                                                     const char *name);
+
+/* ---- The cache: directories, locks of files ---- */
+
+/* Where programs keep what they can make again: $XDG_CACHE_HOME, else ~/.cache, and in it `name`;
+ * freed by free(). SRP_NOT_FOUND (neither is set), SRP_NO_MEMORY. */
+srp_status srp_platform_cache_directory(const char *name, char **out, srp_error *error);
+/* Makes a directory and those above it, for the user alone, where they do not exist. SRP_IO,
+ * SRP_NO_MEMORY. */
+srp_status srp_platform_make_directory(const char *path, srp_error *error);
+/* Locks a file, which is made for that, against all who do the same, threads of this process
+ * included; the lock ends with _unlock() or with the process. *lock is -1 if others have held it
+ * for `seconds`. SRP_IO. */
+srp_status srp_platform_lock_file(const char *path, double seconds, int *lock, srp_error *error);
+void srp_platform_unlock_file(int lock);
+/* Shows all plain files of a directory that exists; `see` returns false to stop. SRP_NOT_FOUND,
+ * SRP_IO. */
+typedef struct srp_platform_file {
+    const char *name; /* in the directory */
+    uint64_t size;    /* [byte] */
+    int64_t changed;  /* [ns since 1970] */
+} srp_platform_file;
+srp_status srp_platform_list_files(const char *path,
+                                   bool (*see)(void *user, const srp_platform_file *file),
+                                   void *user, srp_error *error);
+/* Sets the time of last change to now, if it can be. */
+void srp_platform_touch_file(const char *path);
+/* SRP_NOT_FOUND, SRP_IO. */
+srp_status srp_platform_remove_file(const char *path, srp_error *error);
+srp_status srp_platform_rename_file(const char *from, const char *to, srp_error *error);
+
+/* ---- Threads ---- */
+
+/* A lock with a bell, for few and short waits: what <threads.h> offers, by the calls that
+ * ThreadSanitizer knows. wait() gives the lock up until the bell rings, and may come back without.
+ */
+typedef struct srp_platform_monitor srp_platform_monitor;
+srp_platform_monitor *srp_platform_monitor_create(void); /* NULL: no memory */
+void srp_platform_monitor_destroy(srp_platform_monitor *monitor);
+void srp_platform_monitor_enter(srp_platform_monitor *monitor);
+void srp_platform_monitor_leave(srp_platform_monitor *monitor);
+void srp_platform_monitor_wait(srp_platform_monitor *monitor);
+void srp_platform_monitor_ring(srp_platform_monitor *monitor); /* wakes all that wait */
+
+/* One lock of the whole process around NetCDF, which is not made for threads. */
+void srp_platform_netcdf_enter(void);
+void srp_platform_netcdf_leave(void);
+
+/* Seconds of a clock that only goes forward. */
+double srp_platform_seconds(void);
 
 /* Sets an SRP_IO (or SRP_NOT_FOUND, for ENOENT) error on `path` in the words of errno: "cannot
  * WHAT: No space left on device". */

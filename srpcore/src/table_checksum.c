@@ -4,7 +4,7 @@
  * one fixed order and in little-endian bytes, so that it depends on neither the machine nor the
  * file.
  */
-#include "table_internal.h"
+#include "table_netcdf.h"
 
 #define XXH_STATIC_LINKING_ONLY /* XXH3_state_t on the stack */
 #include <math.h>
@@ -165,6 +165,27 @@ void srp_table_checksum(const srp_table *table, char out[33]) {
     for (size_t k = 0; k < count; ++k) {
         mix_node(&state, table, k);
     }
+    spell(XXH3_128bits_digest(&state), out);
+}
+
+void srp_table_key(const srp_table *table, char out[33]) {
+    const srp_table_info *info = &table->info;
+    XXH3_state_t state;
+    XXH3_INITSTATE(&state);
+    XXH3_128bits_reset(&state);
+    mix_text(&state, SRP_TABLE_FORMAT_NAME);
+    mix_u64(&state, SRP_TABLE_FORMAT_VERSION);
+    mix_u64(&state, table->grid.az_count);
+    mix_u64(&state, table->grid.el_count);
+    mix_text(&state, info->method);
+    mix_text(&state, info->device);
+    mix_text(&state, info->shape_hash);
+    mix_text(&state, info->optics_hash);
+    mix_text(&state, info->version);
+    mix_params(&state, &info->params);
+    mix_u64(&state, info->has_basis);
+    mix_u64(&state, table->material_count);
+    mix_text(&state, info->traced_optics_hash);
     spell(XXH3_128bits_digest(&state), out);
 }
 

@@ -35,31 +35,29 @@ typedef struct fill_job {
     srp_basis *basis; /* NULL when not kept */
 } fill_job;
 
-/* Nodes of different directions. */
-static size_t unique_count(srp_grid grid) {
+size_t srp_table_unique_count(srp_grid grid) {
     return (size_t)(grid.az_count - 1) * (grid.el_count - 2) + 2;
 }
 
-/* Whether node (i, j) stands for all that share its direction. */
-static bool is_first(srp_grid grid, uint32_t i, uint32_t j) {
-    bool pole = j == 0 || j == grid.el_count - 1;
-    return i == 0 || (!pole && i < grid.az_count - 1);
-}
-
 static void copy_node(srp_table *table, size_t from, size_t to) {
-    if (table->filled[to]) {
-        return;
+    if (!table->filled[to]) {
+        const size_t row = table->material_count + 1;
+        srp_table_put_node(table, to, &table->nodes[from],
+                           table->basis != NULL ? &table->basis[from * row] : NULL);
     }
-    table->nodes[to] = table->nodes[from];
-    if (table->basis != NULL) {
-        size_t row = table->material_count + 1;
-        memcpy(&table->basis[to * row], &table->basis[from * row], row * sizeof *table->basis);
-    }
-    srp_table_mark_filled(table, to);
 }
 
-/* Copies a node to the empty ones that share its direction. */
-static void share_node(srp_table *table, size_t index) {
+void srp_table_put_node(srp_table *table, size_t index, const srp_response *response,
+                        const srp_basis *basis) {
+    table->nodes[index] = *response;
+    if (table->basis != NULL) {
+        const size_t row = table->material_count + 1;
+        memcpy(&table->basis[index * row], basis, row * sizeof *basis);
+    }
+    srp_table_mark_filled(table, index);
+}
+
+void srp_table_share_node(srp_table *table, size_t index) {
     srp_grid grid = table->grid;
     uint32_t i = (uint32_t)(index / grid.el_count), j = (uint32_t)(index % grid.el_count);
     if (j == 0 || j == grid.el_count - 1) {
@@ -71,6 +69,24 @@ static void share_node(srp_table *table, size_t index) {
     }
 }
 
+size_t srp_table_take(srp_table *to, const srp_table *from) {
+    const size_t row = to->material_count + 1;
+    size_t taken = 0;
+    for (uint32_t i = 0; i < to->grid.az_count; ++i) {
+        for (uint32_t j = 0; j < to->grid.el_count; ++j) {
+            size_t index = srp_table_index(to, i, j);
+            if (srp_table_first_index(to, i, j) == index && from->filled[index] &&
+                !to->filled[index]) {
+                srp_table_put_node(to, index, &from->nodes[index],
+                                   from->basis != NULL ? &from->basis[index * row] : NULL);
+                srp_table_share_node(to, index);
+                ++taken;
+            }
+        }
+    }
+    return taken;
+}
+
 /* Lists what is left to do, and completes the copies of what is there. */
 static void collect(fill_job *job) {
     srp_table *table = job->table;
@@ -78,11 +94,11 @@ static void collect(fill_job *job) {
     for (uint32_t i = 0; i < grid.az_count; ++i) {
         for (uint32_t j = 0; j < grid.el_count; ++j) {
             size_t index = srp_table_index(table, i, j);
-            if (!is_first(grid, i, j)) {
+            if (srp_table_first_index(table, i, j) != index) {
                 continue;
             }
             if (table->filled[index]) {
-                share_node(table, index);
+                srp_table_share_node(table, index);
             } else {
                 job->todo[job->todo_count++] = index;
             }
@@ -113,7 +129,7 @@ static srp_status job_begin(fill_job *job, srp_table *table, const srp_prepared 
     memset(job, 0, sizeof *job);
     job->table = table;
     job->prepared = prepared;
-    job->unique_count = unique_count(table->grid);
+    job->unique_count = srp_table_unique_count(table->grid);
     job->capacity = batch_capacity(table, job->unique_count);
     job->todo = malloc(job->unique_count * sizeof *job->todo);
     job->directions = malloc(job->capacity * sizeof *job->directions);
@@ -147,12 +163,9 @@ static srp_status run_batch(fill_job *job, size_t begin, size_t count, srp_error
     size_t row = table->material_count + 1;
     for (size_t k = 0; k < count; ++k) {
         size_t index = job->todo[begin + k];
-        table->nodes[index] = job->responses[k];
-        if (table->basis != NULL) {
-            memcpy(&table->basis[index * row], &job->basis[k * row], row * sizeof *table->basis);
-        }
-        srp_table_mark_filled(table, index);
-        share_node(table, index);
+        srp_table_put_node(table, index, &job->responses[k],
+                           job->basis != NULL ? &job->basis[k * row] : NULL);
+        srp_table_share_node(table, index);
     }
     job->done += count;
     return SRP_OK;

@@ -30,6 +30,25 @@ static inline size_t srp_table_index(const srp_table *table, uint32_t i, uint32_
     return (size_t)i * table->grid.el_count + j;
 }
 
+/* The node that stands for all that share the direction of node (i, j): at the lowest azimuth. */
+static inline size_t srp_table_first_index(const srp_table *table, uint32_t i, uint32_t j) {
+    const srp_grid grid = table->grid;
+    const bool pole = j == 0 || j == grid.el_count - 1;
+    return srp_table_index(table, pole || i == grid.az_count - 1 ? 0 : i, j);
+}
+
+/* Nodes of different directions. */
+size_t srp_table_unique_count(srp_grid grid);
+/* Fills a node; `basis` is its row of sums, NULL in tables without. */
+void srp_table_put_node(srp_table *table, size_t index, const srp_response *response,
+                        const srp_basis *basis);
+/* Copies a node, the first of its direction, to the empty ones that share the direction. */
+void srp_table_share_node(srp_table *table, size_t index);
+
+/* Copies to `to` the nodes that it lacks and `from`, a table of the same origin, has; returns how
+ * many directions that is. */
+size_t srp_table_take(srp_table *to, const srp_table *from);
+
 /* An empty table that says nothing of its origin; the names of its materials are NULL until they
  * are set by srp_table_set_material(). SRP_BAD_ARGUMENT (grid), SRP_NO_MEMORY. */
 srp_status srp_table_create_blank(srp_grid grid, size_t material_count, bool with_basis,
@@ -51,6 +70,10 @@ void srp_table_mark_filled(srp_table *table, size_t index);
 /* Checksum (XXH3, 128 bits, 32 hexadecimal digits) of everything that a table holds, independent of
  * how and where it is stored. */
 void srp_table_checksum(const srp_table *table, char out[33]);
+/* Checksum of what decides the numbers of a table, whichever of them are there: format, library
+ * version, grid, method, device, shape, optics, parameters and whether sums are kept. Tables that
+ * srp_table_check_origin() takes for one another have the same. */
+void srp_table_key(const srp_table *table, char out[33]);
 /* The same of bytes. */
 void srp_bytes_checksum(const void *bytes, size_t size, char out[33]);
 

@@ -27,7 +27,9 @@ offers() {
 
 offers 'info' srp in
 offers 'convert' srp conv
-offers 'compare convert' srp c
+offers 'cache compare convert' srp c
+offers 'clear list path' srp cache ''
+offers 'clear' srp cache c
 offers 'table' srp help t
 offers '--distance-au' srp force --dis
 offers '--step' srp table --st
@@ -52,7 +54,7 @@ offers 'd.plates' srp force --plates = d
 offers '' srp nocommand ''
 
 # Every option of every command.
-for command in info force table reoptic convert plot compare fit-nplate; do
+for command in info force table reoptic convert plot compare fit-nplate cache; do
     expect 0 "$command" --help
     grep -oE -- '^ {2,6}(-[a-z], )?--[a-z-]+' ../log/out | grep -oE -- '--[a-z-]+' > options
     while read -r option; do

@@ -22,6 +22,8 @@ ln -s "$ROOT/models" "$scratch/work/models"
 ln -s "$SRP" "$scratch/bin/srp"
 PATH=$scratch/bin:$PATH
 export PATH
+# What is remembered is remembered here, and forgotten afterwards.
+export XDG_CACHE_HOME=$scratch/cache
 cd "$scratch/work" || exit 1
 
 failures=0

@@ -10,6 +10,8 @@
 #include "shapes.h"
 #include "srp_check.h"
 
+#include <srp/cache.h>
+#include <srp/demand.h>
 #include <srp/interp.h>
 #include <srp/method.h>
 #include <srp/scene.h>
@@ -379,6 +381,66 @@ static srp_status try_interp(srp_error *error) {
     return status == SRP_OK || interp == (srp_interp *)NOT_TOUCHED ? status : SRP_MISMATCH;
 }
 
+/* Made, asked in two cells, the second one twice. */
+static srp_status ask_on_demand(const srp_prepared *fresh, srp_error *error) {
+    srp_demand *demand = (srp_demand *)NOT_TOUCHED;
+    srp_interp *interp = (srp_interp *)NOT_TOUCHED;
+    const srp_grid grid = {9, 5};
+    const srp_vec3 s[] = {{0.6, 0.0, 0.8}, {0.0, -0.6, 0.8}, {0.0, -0.6, 0.8}};
+    srp_status status = srp_demand_create(fresh, grid, NULL, &demand, error);
+    if (status != SRP_OK) {
+        return demand == (srp_demand *)NOT_TOUCHED ? status : SRP_MISMATCH;
+    }
+    status = srp_interp_create_on_demand(&srp_interp_bicubic, demand, &interp, error);
+    if (status != SRP_OK) {
+        status = interp == (srp_interp *)NOT_TOUCHED ? status : SRP_MISMATCH;
+        srp_demand_destroy(demand);
+        return status;
+    }
+    for (int k = 0; status == SRP_OK && k < 3; ++k) {
+        srp_vec3 f;
+        status = srp_interp_eval(interp, s[k], &f, NULL, NULL, error);
+    }
+    srp_interp_destroy(interp);
+    srp_demand_destroy(demand);
+    return status;
+}
+
+/* With a method of its own, which keeps scratch memory. */
+static srp_status try_demand(srp_error *error) {
+    srp_prepared *fresh = NULL;
+    srp_method_params params = small_params();
+    srp_status status = srp_method_prepare(&srp_method_raycast, scene, &params, &fresh, error);
+    if (status == SRP_OK) {
+        status = ask_on_demand(fresh, error);
+        srp_prepared_release(fresh);
+    }
+    return status;
+}
+
+static srp_status try_cache(srp_error *error) {
+    srp_cache *cache = (srp_cache *)NOT_TOUCHED;
+    srp_cache_params params = srp_cache_params_default();
+    srp_cache_entry *entries = (srp_cache_entry *)NOT_TOUCHED;
+    size_t count = 77;
+    params.directory = "test_alloc_failure.cache";
+    srp_status status = srp_cache_open(&params, NULL, &cache, error);
+    if (status != SRP_OK) {
+        return cache == (srp_cache *)NOT_TOUCHED ? status : SRP_MISMATCH;
+    }
+    status = srp_cache_exchange(cache, prepared, filled, NULL, error);
+    if (status == SRP_OK) {
+        status = srp_cache_list(cache, &entries, &count, error);
+    }
+    if (status == SRP_OK) {
+        srp_cache_entries_free(entries);
+    } else if (entries != (srp_cache_entry *)NOT_TOUCHED || count != 77) {
+        status = SRP_MISMATCH;
+    }
+    srp_cache_close(cache);
+    return status;
+}
+
 static srp_status try_bvh(srp_error *error) {
     srp_bvh *bvh = (srp_bvh *)NOT_TOUCHED;
     srp_status status = srp_bvh_create(scene, 2, &bvh, error);
@@ -415,6 +477,8 @@ static const struct {
     {"table_fill", try_table_fill},
     {"table_reoptic", try_table_reoptic},
     {"interp", try_interp},
+    {"demand", try_demand},
+    {"cache", try_cache},
     {"netcdf", try_netcdf},
     {"spo", try_spo},
     {"txt", try_txt},
@@ -447,11 +511,82 @@ START_TEST(every_allocation_may_fail) {
 }
 END_TEST
 
+/* What is ready needs no memory. */
+START_TEST(lookups_in_cells_that_are_ready_allocate_nothing) {
+    srp_demand *demand = NULL;
+    srp_interp *interp = NULL;
+    srp_interp_jacobian slopes;
+    srp_vec3 s = {0.0, -0.6, 0.8}, f, t;
+    srp_error error;
+    assert_ok(srp_demand_create(prepared, (srp_grid){9, 5}, NULL, &demand, &error), error);
+    assert_ok(srp_interp_create_on_demand(&srp_interp_bicubic, demand, &interp, &error), error);
+    assert_ok(srp_interp_eval(interp, s, &f, &t, &slopes, &error), error);
+    atomic_store(&until_failure, 0);
+    atomic_store(&armed, true);
+    srp_status status = srp_interp_eval(interp, s, &f, &t, &slopes, &error);
+    const srp_demand_node node = {0, 0};
+    srp_status again = srp_demand_need(demand, 1, &node, &error);
+    atomic_store(&armed, false);
+    ck_assert_int_eq(status, SRP_OK);
+    ck_assert_int_eq(again, SRP_OK);
+    ck_assert_int_eq(atomic_load(&until_failure), 0);
+    srp_interp_destroy(interp);
+    srp_demand_destroy(demand);
+}
+END_TEST
+
+static int warnings;
+
+static void count_warning(void *user, const srp_error *what) {
+    (void)user;
+    (void)what;
+    ++warnings;
+}
+
+/* Without memory for the cache a table on demand goes on without it, and says so once. */
+START_TEST(a_cache_without_memory_stops_nobody) {
+    const srp_log log = {count_warning, NULL};
+    srp_cache_params params = srp_cache_params_default();
+    srp_cache *cache = NULL;
+    srp_error error;
+    long n = 0;
+    params.directory = "test_alloc_failure.cache";
+    params.flush_nodes = 1;
+    assert_ok(srp_cache_open(&params, &log, &cache, &error), error);
+    for (bool failed = true; failed; ++n) {
+        srp_demand *demand = NULL;
+        const srp_demand_node node = {(uint32_t)(n % 8), 2};
+        long before = atomic_load(&held);
+        warnings = 0;
+        atomic_store(&until_failure, n);
+        atomic_store(&armed, true);
+        srp_status made = srp_demand_create(prepared, (srp_grid){9, 5}, cache, &demand, &error);
+        srp_status status = made == SRP_OK ? srp_demand_need(demand, 1, &node, &error) : made;
+        if (made == SRP_OK) {
+            srp_demand_destroy(demand);
+        }
+        atomic_store(&armed, false);
+        failed = atomic_load(&until_failure) < 0;
+        long leaked = atomic_load(&held) - before;
+        ck_assert_msg(leaked == 0, "allocation %ld fails, %ld blocks leak", n, leaked);
+        ck_assert_msg(status == SRP_OK || (failed && status == SRP_NO_MEMORY), "%ld: %s", n,
+                      error.message);
+        ck_assert_int_eq(warnings, failed && status == SRP_OK);
+        ck_assert_int_lt(n, 10000);
+    }
+    printf("cache behind a table on demand: %ld allocations\n", n - 1);
+    ck_assert_int_gt(n, 10);
+    srp_cache_close(cache);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("alloc_failure");
     TCase *tcase = tcase_create("alloc_failure");
     tcase_add_unchecked_fixture(tcase, set_up, NULL);
     tcase_add_loop_test(tcase, every_allocation_may_fail, 0, sizeof TRIES / sizeof *TRIES);
+    tcase_add_test(tcase, lookups_in_cells_that_are_ready_allocate_nothing);
+    tcase_add_test(tcase, a_cache_without_memory_stops_nobody);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);
 }

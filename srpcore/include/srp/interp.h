@@ -55,10 +55,14 @@ struct srp_interp_scheme {
     int order;           /* power of the step that the error falls with, on smooth fields */
     unsigned capabilities;
     unsigned steps_min; /* fewest steps of azimuth that it takes; half as many of elevation */
+    unsigned reach;     /* SRP_INTERP_LOCAL: nodes beyond those of the cell, to each side */
     /* From the nodes, copied into `interp`, to what eval needs. */
     srp_status (*prepare)(srp_interp *interp, srp_error *error);
     /* The look-up; false unless s is a unit vector. */
     bool (*eval)(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to);
+    /* SRP_INTERP_LOCAL, may be NULL: sets the node of column i beyond a pole after that before it
+     * has been set. */
+    void (*extend)(srp_interp *interp, uint32_t i, int north);
 };
 
 /* Linear in azimuth and elevation, as GMAT's reader does: continuous, order 2. */
@@ -96,8 +100,9 @@ SRP_API bool srp_interp_has_moment(const srp_interp *interp);
  *   f         area vector [m^2], body frame
  *   t         moment vector [m^3] about the table's reference point, body frame; may be NULL
  *   jacobian  may be NULL
- * SRP_BAD_ARGUMENT: s is not a unit vector, or NaN; nothing else can happen. Allocates nothing;
- * any number of threads at once. With `bilinear`, on the edge of a cell the derivatives are those
+ * SRP_BAD_ARGUMENT: s is not a unit vector, or NaN; nothing else can happen, unless the interpolant
+ * fills its table as it goes (srp_interp_create_on_demand(), srp/demand.h). Allocates nothing; any
+ * number of threads at once. With `bilinear`, on the edge of a cell the derivatives are those
  * of one side, and at a pole those of the plane that fits the nearest nodes best.
  */
 SRP_API SRP_CHECK srp_status srp_interp_eval(const srp_interp *interp, srp_vec3 s_body, srp_vec3 *f,

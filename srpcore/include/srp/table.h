@@ -191,7 +191,8 @@ typedef struct srp_table_format {
     srp_status (*read)(const char *path, srp_table **out, srp_error *error);
 } srp_table_format;
 
-/* NetCDF-C is not made for threads: only one thread at a time may read or write .nc files. */
+/* NetCDF-C is not made for threads. Readers and writers of .nc files here take turns; a program
+ * that calls NetCDF itself must not do so meanwhile. */
 SRP_API extern const srp_table_format srp_table_format_netcdf;
 SRP_API extern const srp_table_format srp_table_format_spo;
 SRP_API extern const srp_table_format srp_table_format_txt;
