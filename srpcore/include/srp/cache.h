@@ -56,8 +56,8 @@ SRP_API const char *srp_cache_directory(const srp_cache *cache);
 /*
  * Gives `table`, made for `prepared`, the nodes that the cache has and it lacks, and the cache
  * those that it lacks. Nodes are the same to the bit wherever they come from. *found (may be NULL)
- * counts the directions that came from the cache. SRP_MISMATCH (`table` is not of `prepared`), SRP_IO,
- * SRP_NO_MEMORY; `table` is then as good as before, and may have gained nodes. Any thread.
+ * counts the directions that came from the cache. SRP_MISMATCH (`table` is not of `prepared`),
+ * SRP_IO, SRP_NO_MEMORY; `table` is then as good as before, and may have gained nodes. Any thread.
  */
 SRP_API SRP_CHECK srp_status srp_cache_exchange(srp_cache *cache, const srp_prepared *prepared,
                                                 srp_table *table, size_t *found, srp_error *error);
