@@ -113,10 +113,10 @@ SRP_API SRP_CHECK srp_status srp_method_prepare(const srp_method *method, const 
  *              SRP_BAD_ARGUMENT, as for NaN
  *   responses  (count)
  *   basis      NULL, or (count, material count + 1) per-material sums, direction by direction; the
- *              last of each row is the absorbing backs of one-sided materials, whose optics are 0,
- * 0. SRP_UNSUPPORTED when the method lacks SRP_METHOD_BASIS Runs on up to params.threads threads; a
- * response depends on its direction alone, to the bit. Several threads may call it on one
- * `prepared` at once. SRP_NO_MEMORY.
+ *              last of each row is the absorbing backs of one-sided materials, whose optics are
+ *              0, 0. SRP_UNSUPPORTED when the method lacks SRP_METHOD_BASIS
+ * Runs on up to params.threads threads; a response depends on its direction alone, to the bit.
+ * Several threads may call it on one `prepared` at once. SRP_NO_MEMORY.
  */
 SRP_API SRP_CHECK srp_status srp_prepared_respond(const srp_prepared *prepared, size_t count,
                                                   const srp_vec3 *s_body, srp_response *responses,
