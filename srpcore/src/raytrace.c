@@ -242,12 +242,13 @@ static void add_samples(const raytrace_scratch *own, srp_bounce_kind kind, doubl
     /* Where the groups have seen no light, their scatter says nothing: one cell of the lattice may
      * have missed as much as it stands for, though no more than there is. */
     double cell = own->frame.lattice.du * own->frame.lattice.dv;
-    double unseen =
-        fmin(cell, available) * fmin(cell, available) * srp_bounce_sums_dark(sums, kind);
+    double missed = fmin(cell, available);
+    double unseen = missed * missed * srp_bounce_sums_dark(sums, kind);
     const srp_scene *scene = own->state->head.scene;
     srp_vec3 lever = srp_vec3_sub(scene->centre, own->state->world.reference);
     into->f_variance += unseen;
-    into->t_variance += unseen * pow(srp_vec3_norm(lever) + scene->radius, 2.0);
+    /* Somewhere in the ball that holds the model: the mean of its squared distances. */
+    into->t_variance += unseen * (srp_vec3_dot(lever, lever) + 0.6 * scene->radius * scene->radius);
     srp_bounce_sums_variance(sums, kind, own->frame.kind == SRP_LATTICE_TURNED, &into->f_variance,
                              &into->t_variance);
 }
