@@ -8,6 +8,9 @@
  * the mesh in double precision and leaves out what faces away or lies between samples; the GPU
  * turns vertices in float.
  *
+ * GPUs place vertices to 1/256 of a pixel. To have them placed to 1/512 of a cell, each cell is two
+ * pixels wide and high. Its sample is the centre of the first; the other three are not used.
+ *
  * Many directions are drawn before the first is read, each into a layer of its own; large lattices
  * are drawn in pieces. GPUs count fast, too, but the error of a response follows from where along
  * each row the numbers change, so that they are read.
@@ -28,19 +31,20 @@
 #include <string.h>
 
 enum {
+    FINE = 2,              /* pixels along a side of a cell */
     SIDE_MAX = 2048,       /* samples along a side of a piece */
-    SIDE_STEP = 64,        /* sides of layers are multiples of this */
+    SIDE_STEP = 64,        /* sides of layers are multiples of this [samples] */
     SAMPLES_MAX = 1 << 22, /* of all layers */
     DIRECTIONS_MAX = 64,   /* at a time; and layers */
     FACETS_MAX = 1 << 21   /* of all directions together */
 };
 
-/* A vertex is moved by up to half a step of the GPU's 1/256 of a cell, and by rounding to float: a
+/* A vertex is moved by up to half a step of the GPU's 1/512 of a cell, and by rounding to float: a
  * facet that comes no nearer to a sample than this [cells] is not drawn. */
 static const double SNAP = 1.0 / 64.0;
 
 /* Faces turned away lie behind others at the same place: by what moving the vertices of both may do
- * to their depth [samples]. */
+ * to their depth [pixels]. */
 static const float BACK_RECEDES = 2.0F / 256.0F;
 
 typedef struct raycast {
@@ -78,7 +82,8 @@ typedef struct piece {
 typedef struct raycast_worker {
     srp_gl_worker head;
     srp_gl_canvas canvas;
-    uint32_t *ids; /* (canvas.layers, canvas.side^2) */
+    int32_t side;  /* of a layer [samples] */
+    uint32_t *ids; /* (canvas.layers, canvas.side^2) pixels, packed to samples row by row */
     uint32_t *indices;
     size_t index_capacity;
     size_t shot_count;
@@ -272,13 +277,13 @@ static void set_row(float row[4], const srp_scene *scene, srp_vec3 axis, double 
 
 static srp_gl_view view_of(const srp_scene *scene, const piece *at) {
     const srp_lattice *lattice = &at->of->frame.lattice;
-    srp_gl_view view = {.width = at->width, .height = at->height};
+    srp_gl_view view = {.width = FINE * at->width, .height = FINE * at->height};
     /* A sample is the middle of a pixel: 0 lies half a pixel from the left edge, which is at -1. */
     double per_u = 2.0 / (at->width * lattice->du), per_v = 2.0 / (at->height * lattice->dv);
     set_row(view.along[0], scene, lattice->view.u, per_u,
-            -per_u * lattice->u0 + (1.0 - 2.0 * at->column) / at->width - 1.0);
+            -per_u * lattice->u0 + (1.0 / FINE - 2.0 * at->column) / at->width - 1.0);
     set_row(view.along[1], scene, lattice->view.v, per_v,
-            -per_v * lattice->v0 + (1.0 - 2.0 * at->row) / at->height - 1.0);
+            -per_v * lattice->v0 + (1.0 / FINE - 2.0 * at->row) / at->height - 1.0);
     /* Within the depth range with some room; a sheet that faces the Sun has no depth at all. */
     double range = fmax(at->of->near - at->of->far, 1e-6 * scene->radius), room = 1.98;
     double middle = 0.5 * (at->of->near + at->of->far);
@@ -317,6 +322,14 @@ static void count_row(shot *of, const uint32_t *ids, int32_t width, int32_t colu
     }
 }
 
+/* Leaves the samples of a row of pixels, in place; returns them. */
+static const uint32_t *pack_row(uint32_t *pixels, int32_t width) {
+    for (int32_t i = 1; i < width; ++i) {
+        pixels[i] = pixels[FINE * i];
+    }
+    return pixels;
+}
+
 static uint32_t *layer_of(const raycast_worker *own, size_t layer) {
     return own->ids + layer * (size_t)own->canvas.side * (size_t)own->canvas.side;
 }
@@ -326,7 +339,8 @@ static void count_shot(const raycast *state, const raycast_worker *own, shot *of
     for (size_t k = 0; k < own->piece_count; ++k) {
         const piece *at = &own->pieces[k];
         for (int32_t j = 0; at->of == of && j < at->height; ++j) {
-            const uint32_t *ids = layer_of(own, k) + (size_t)j * (size_t)at->width;
+            size_t begin = (size_t)FINE * (size_t)j * (size_t)FINE * (size_t)at->width;
+            const uint32_t *ids = pack_row(layer_of(own, k) + begin, at->width);
             if (state->watch != NULL) {
                 state->watch(state->user, &of->frame, at->column, at->row + j, at->width, ids);
             }
@@ -339,7 +353,8 @@ static void count_shot(const raycast *state, const raycast_worker *own, shot *of
 
 /* Makes layers that fit the directions that are open, unless they are there. */
 static srp_status choose_layers(raycast_worker *own, size_t open_count, srp_error *error) {
-    int32_t limit = own->head.context->side_max < SIDE_MAX ? own->head.context->side_max : SIDE_MAX;
+    int32_t limit = own->head.context->side_max / FINE;
+    limit = limit < SIDE_MAX ? limit : SIDE_MAX;
     int32_t longest = 1;
     for (size_t k = 0; k < open_count; ++k) {
         const srp_lattice *lattice = &own->open[k]->frame.lattice;
@@ -348,27 +363,30 @@ static srp_status choose_layers(raycast_worker *own, size_t open_count, srp_erro
     }
     int32_t side = (longest + SIDE_STEP - 1) / SIDE_STEP * SIDE_STEP;
     side = side < limit ? side : limit;
-    if (side <= own->canvas.side && own->canvas.side < 2 * side) {
+    if (side <= own->side && own->side < 2 * side) {
         return SRP_OK; /* what lies beyond a lattice costs nothing */
     }
+    own->side = 0; /* until there is memory for both */
+    int32_t pixels = FINE * side;
     int32_t layers = SAMPLES_MAX / (side * side);
     layers = layers < 1 ? 1 : layers > DIRECTIONS_MAX ? DIRECTIONS_MAX : layers;
     free(own->ids);
-    own->ids = malloc((size_t)layers * (size_t)side * (size_t)side * sizeof *own->ids);
+    own->ids = malloc((size_t)layers * (size_t)pixels * (size_t)pixels * sizeof *own->ids);
     if (own->ids == NULL) {
-        own->canvas.side = 0; /* there is no memory to read this size into */
         return srp_fail(error, SRP_NO_MEMORY, "no memory for %d pictures of %d x %d samples",
                         layers, side, side);
     }
-    return srp_gl_canvas_resize(&own->canvas, side, layers, error);
+    srp_status status = srp_gl_canvas_resize(&own->canvas, pixels, layers, error);
+    own->side = status == SRP_OK ? side : 0;
+    return status;
 }
 
 /* Reads the pictures that were drawn, and counts them. */
 static srp_status flush(const raycast *state, raycast_worker *own, size_t open_count,
                         srp_error *error) {
     for (size_t k = 0; k < own->piece_count; ++k) {
-        srp_gl_canvas_read(&own->canvas, (GLint)k, own->pieces[k].width, own->pieces[k].height,
-                           layer_of(own, k));
+        srp_gl_canvas_read(&own->canvas, (GLint)k, FINE * own->pieces[k].width,
+                           FINE * own->pieces[k].height, layer_of(own, k));
     }
     srp_status status = srp_gl_context_check(own->head.context, "drawing triangles", error);
     if (status == SRP_OK && own->piece_count > 0) {
@@ -391,7 +409,8 @@ static srp_status add_piece(const raycast *state, raycast_worker *own, size_t op
         status = flush(state, own, open_count, error);
     }
     if (status == SRP_OK) {
-        srp_gl_canvas_begin(&own->canvas, (GLint)own->piece_count, at->width, at->height);
+        srp_gl_canvas_begin(&own->canvas, (GLint)own->piece_count, FINE * at->width,
+                            FINE * at->height);
         draw_piece(state->head.scene, own, at);
         own->pieces[own->piece_count++] = *at;
     }
@@ -402,7 +421,7 @@ static srp_status add_piece(const raycast *state, raycast_worker *own, size_t op
 static srp_status draw_all(const raycast *state, raycast_worker *own, size_t open_count,
                            srp_error *error) {
     srp_status status = choose_layers(own, open_count, error);
-    int32_t side = own->canvas.side;
+    int32_t side = own->side;
     own->piece_count = 0;
     for (size_t k = 0; k < open_count && status == SRP_OK; ++k) {
         const srp_lattice *lattice = &own->open[k]->frame.lattice;

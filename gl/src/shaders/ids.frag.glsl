@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which triangle of the draw covers a sample, counted from `first`; 0 stands for none.
+// Which triangle of the draw covers a pixel, counted from `first`; 0 stands for none.
 
 uniform uint first;
 
