@@ -223,7 +223,7 @@ srp_vec3 srp_ephemeris_position(const srp_ephemeris *ephemeris, srp_celestial bo
     if ((unsigned)body >= SRP_CELESTIAL_COUNT || ephemeris->curves[body].terms == NULL) {
         return srp_vec3_make(NAN, NAN, NAN);
     }
-    srp_vec3 r = evaluate(ephemeris, body, t);
+    srp_vec3 r = evaluate(ephemeris, (int)body, t);
     return body == SRP_SUN || body == SRP_MOON
                ? r
                : srp_vec3_add(r, srp_ephemeris_position(ephemeris, SRP_SUN, t));

@@ -52,8 +52,8 @@ static const char *const GOOD[] = {
     /* 39 */ "output:",
     /* 40 */ "  step: 25 min",
     /* 41 */
-    "  columns: [epoch, elapsed, position, velocity, elements, sun, area, srp, seen, impulse, "
-    "attitude, nodes, matrix, a1_mjd, tdb_mjd]",
+    ("  columns: [epoch, elapsed, position, velocity, elements, sun, area, srp, seen, impulse, "
+     "attitude, nodes, matrix, a1_mjd, tdb_mjd]"),
 };
 enum { LINES = sizeof GOOD / sizeof GOOD[0] };
 
