@@ -56,17 +56,22 @@ else
 fi
 
 # A file beyond the limit of the system is a failure like a full disk: nothing half-written stays.
-for ending in nc spo; do
-    last="ulimit -f 50; srp table -o lim.$ending"
-    (
-        ulimit -f 50
-        exec "$SRP" table "$MODELS/box-wing.obj" -o "lim.$ending" --step 3 > ../log/out 2> ../log/err
-    )
-    got=$?
-    [ "$got" -eq 3 ] || fail "exit status $got, expected 3"
-    says "lim.$ending: "
-    holds
-done
+# ThreadSanitizer keeps its own books in files: what it watches cannot work below such a limit.
+if (ulimit -f 50 && exec "$SRP" force "$MODELS/cube.obj" --az 0 --el 0 > /dev/null 2>&1); then
+    for ending in nc spo; do
+        last="ulimit -f 50; srp table -o lim.$ending"
+        (
+            ulimit -f 50
+            exec "$SRP" table "$MODELS/box-wing.obj" -o "lim.$ending" --step 3 > ../log/out 2> ../log/err
+        )
+        got=$?
+        [ "$got" -eq 3 ] || fail "exit status $got, expected 3"
+        says "lim.$ending: "
+        holds
+    done
+else
+    skip 'srp does not run with a limit on the size of files'
+fi
 
 # An old file stays as it was until the new one is whole; then it is replaced.
 echo old > a.spo
