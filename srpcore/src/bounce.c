@@ -99,7 +99,7 @@ static void tell(const srp_bounce_wave *wave, srp_bounce_step step, const arriva
 static void tell_loss(const srp_bounce_wave *wave, srp_bounce_step step, const arrival *at) {
     const srp_vec3 none = {0.0, 0.0, 0.0};
     tell(wave, step, at, at->path->flux * at->optics.rho_s,
-         srp_bounce_mirrored(at->direction, at->normal), none);
+         srp_vec3_mirrored(at->direction, at->normal), none);
 }
 
 static void add_ray(srp_bounce_wave *wave, const arrival *at, srp_vec3 direction, double share,
@@ -125,7 +125,7 @@ static void add_scattered(srp_bounce_wave *wave, const arrival *at, double share
 /* All that light does that has met mirrors only. */
 static void split(srp_bounce_wave *wave, const arrival *at) {
     if (at->optics.rho_s > 0.0) {
-        add_ray(wave, at, srp_bounce_mirrored(at->direction, at->normal), at->optics.rho_s,
+        add_ray(wave, at, srp_vec3_mirrored(at->direction, at->normal), at->optics.rho_s,
                 SRP_BOUNCE_SPECULAR, at->path->ray);
     }
     uint32_t diffuse = wave->world->diffuse;
@@ -145,7 +145,7 @@ static void split(srp_bounce_wave *wave, const arrival *at) {
 static void choose(srp_bounce_wave *wave, const arrival *at) {
     double share = at->optics.rho_s + at->optics.rho_d;
     if (coordinate_of(wave, at->path, at->bounces, SRP_BOUNCE_CHOICE) * share < at->optics.rho_s) {
-        add_ray(wave, at, srp_bounce_mirrored(at->direction, at->normal), share, SRP_BOUNCE_DIFFUSE,
+        add_ray(wave, at, srp_vec3_mirrored(at->direction, at->normal), share, SRP_BOUNCE_DIFFUSE,
                 at->path->ray);
     } else {
         add_scattered(wave, at, share, at->path->ray);

@@ -117,10 +117,6 @@ static inline srp_vec3 srp_bounce_push(srp_optics optics, srp_vec3 normal, srp_v
     return srp_vec3_scale(flux, srp_vec3_add_scaled(push, -inwards, normal));
 }
 
-static inline srp_vec3 srp_bounce_mirrored(srp_vec3 direction, srp_vec3 normal) {
-    return srp_vec3_add_scaled(direction, -2.0 * srp_vec3_dot(direction, normal), normal);
-}
-
 /* Coordinates of a point that a path takes at a bounce: of a scattered direction, and of the choice
  * between mirrored and scattered. */
 typedef enum srp_bounce_coordinate {

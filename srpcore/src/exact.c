@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Exact: first hits of sunlight without sampling. How they are found is in exact_visible.c. */
 #include "error.h"
-#include "exact_kernel.h"
-#include "exact_visible.h"
+#include "exact_lit.h"
 #include "method_internal.h"
 #include "scene_internal.h"
 
@@ -56,7 +55,7 @@ static srp_status respond_direction(const srp_prepared *prepared, srp_scratch *b
     return srp_visible_find(((exact_scratch *)base)->visible, &beam, false, add_lit, &to);
 }
 
-const srp_direction_kernel srp_exact_kernel = {scratch_create, scratch_destroy, respond_direction};
+static const srp_direction_kernel KERNEL = {scratch_create, scratch_destroy, respond_direction};
 
 static srp_status prepare(const srp_scene *scene, const srp_method_params *params,
                           srp_prepared **out, srp_error *error) {
@@ -74,12 +73,12 @@ static srp_status prepare(const srp_scene *scene, const srp_method_params *param
 static srp_status respond(const srp_prepared *prepared, size_t count, const srp_vec3 *s_body,
                           srp_response *responses, srp_basis *basis, srp_error *error) {
     exact *state = (exact *)prepared;
-    return srp_respond_each(prepared, &srp_exact_kernel, &state->pool, count, s_body, responses,
-                            basis, error);
+    return srp_respond_each(prepared, &KERNEL, &state->pool, count, s_body, responses, basis,
+                            error);
 }
 
 static void release(srp_prepared *prepared) {
-    srp_scratch_pool_clear(&((exact *)prepared)->pool, &srp_exact_kernel);
+    srp_scratch_pool_clear(&((exact *)prepared)->pool, &KERNEL);
     free(prepared);
 }
 

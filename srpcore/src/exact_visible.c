@@ -120,19 +120,15 @@ srp_beam srp_beam_of_sun(const srp_scene *scene, srp_vec3 s) {
     return (srp_beam){srp_view_of(s), false, scene->centre, NULL};
 }
 
-static srp_vec3 mirrored(srp_vec3 v, srp_vec3 normal) {
-    return srp_vec3_add_scaled(v, -2.0 * srp_vec3_dot(v, normal), normal);
-}
-
 srp_beam srp_beam_mirrored(const srp_beam *beam, const srp_scene *scene, uint32_t mirror) {
     const srp_facet *facet = &scene->facets[mirror];
     srp_vec3 on = scene->vertices[facet->v[0]], n = facet->normal;
     srp_beam out;
-    out.view.u = mirrored(beam->view.u, n);
-    out.view.v = mirrored(beam->view.v, n);
-    out.view.s = mirrored(beam->view.s, n);
+    out.view.u = srp_vec3_mirrored(beam->view.u, n);
+    out.view.v = srp_vec3_mirrored(beam->view.v, n);
+    out.view.s = srp_vec3_mirrored(beam->view.s, n);
     out.mirrored = !beam->mirrored;
-    out.centre = srp_vec3_add(on, mirrored(srp_vec3_sub(beam->centre, on), n));
+    out.centre = srp_vec3_add(on, srp_vec3_mirrored(srp_vec3_sub(beam->centre, on), n));
     out.window = NULL;
     return out;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "mirrors.h"
 
-#include "exact_kernel.h"
+#include "exact_lit.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -132,7 +132,7 @@ static srp_status leave(srp_mirrors *work, uint32_t bounces, const srp_lit *lit,
                                   .facet = lit->facet,
                                   .back = lit->back,
                                   .flux = flux * optics.rho_s,
-                                  .direction = srp_bounce_mirrored(direction, lit->normal)});
+                                  .direction = srp_vec3_mirrored(direction, lit->normal)});
     return SRP_OK;
 }
 

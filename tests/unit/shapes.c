@@ -49,3 +49,25 @@ srp_scene *shape_scene(srp_mesh *mesh, srp_optics optics) {
     srp_mesh_destroy(mesh);
     return scene;
 }
+
+srp_scene *shape_corner_cube(void) {
+    static const srp_vec3 v[7] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0},
+                                  {0.0, 0.0, 1.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 1.0},
+                                  {1.0, 0.0, 1.0}};
+    static const srp_triangle t[6] = {{{0, 1, 4}}, {{0, 4, 2}}, {{0, 2, 5}},
+                                      {{0, 5, 3}}, {{0, 3, 6}}, {{0, 6, 1}}};
+    const srp_optics mirror = {1.0, 0.0, false};
+    return shape_scene(shape_mesh(v, 7, t, 6, "mirror"), mirror);
+}
+
+/*
+ * Light along -s meets the plane x = 0 at the time p = x / s_x, y = 0 at q = y / s_y, z = 0 at
+ * r = z / s_z, for mirrors only turn signs round. It falls within the squares each time if
+ * |p - q| max(s_x, s_y) <= 1, and so on. For s_x >= s_y >= s_z this leaves of the plane (p - r,
+ * q - r) the area 4ab - b^2 with a = 1 / s_x, b = 1 / s_y <= 2a, and of the cross-section s_x s_y
+ * s_z times that. Seen along (1, 1, 1) it is sqrt(3): the whole aperture.
+ */
+double shape_corner_cube_returns(srp_vec3 s) {
+    double a = 1.0 / s.x, b = 1.0 / s.y;
+    return s.x * s.y * s.z * (4.0 * a * b - b * b);
+}

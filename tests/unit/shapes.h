@@ -22,4 +22,9 @@ void shape_join(srp_mesh *mesh, srp_mesh *part);
 /* A scene of `mesh`, all of whose materials get `optics`; destroys the mesh. */
 srp_scene *shape_scene(srp_mesh *mesh, srp_optics optics);
 
+/* Three square mirrors of side 1 in the coordinate planes, seen from their inside. */
+srp_scene *shape_corner_cube(void);
+/* Cross-section that it sends back along s, after three hits; s.x >= s.y >= s.z > 0. */
+double shape_corner_cube_returns(srp_vec3 s);
+
 #endif

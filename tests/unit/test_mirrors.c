@@ -70,16 +70,6 @@ START_TEST(dihedral_sends_light_back) {
 }
 END_TEST
 
-/* Three square mirrors of side 1 in the coordinate planes, seen from their inside. */
-static srp_scene *corner_cube(void) {
-    static const srp_vec3 v[7] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0},
-                                  {0.0, 0.0, 1.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 1.0},
-                                  {1.0, 0.0, 1.0}};
-    static const srp_triangle t[6] = {{{0, 1, 4}}, {{0, 4, 2}}, {{0, 2, 5}},
-                                      {{0, 5, 3}}, {{0, 3, 6}}, {{0, 6, 1}}};
-    return shape_scene(shape_mesh(v, 7, t, 6, "mirror"), MIRROR);
-}
-
 typedef struct returned {
     srp_vec3 s;
     double flux, lost, least;
@@ -94,24 +84,14 @@ static void sum_returned(void *user, const srp_bounce_event *event) {
     }
 }
 
-/*
- * Light along -s meets the plane x = 0 at the time p = x / s_x, y = 0 at q = y / s_y, z = 0 at
- * r = z / s_z, for mirrors only turn signs round. It falls within the squares each time if
- * |p - q| max(s_x, s_y) <= 1, and so on. For s_x >= s_y >= s_z this leaves of the plane (p - r,
- * q - r) the area 4ab - b^2 with a = 1 / s_x, b = 1 / s_y <= 2a, and of the cross-section s_x s_y
- * s_z times that. Seen along (1, 1, 1) it is sqrt(3): the whole aperture.
- */
-static double triple_area(srp_vec3 s) {
-    double a = 1.0 / s.x, b = 1.0 / s.y;
-    return s.x * s.y * s.z * (4.0 * a * b - b * b);
-}
-
 START_TEST(corner_cube_sends_light_back) {
-    srp_scene *scene = corner_cube();
+    srp_scene *scene = shape_corner_cube();
     const srp_vec3 along = unit(1.0, 1.0, 1.0), askew = unit(0.8, 0.7, 0.45);
     srp_response got = solve(scene, 2, ORIGIN, along);
-    printf("corner cube: |f| %.15f of %.15f\n", srp_vec3_norm(got.f), 2.0 * triple_area(along));
-    assert_vec3_close(got.f, srp_vec3_scale(-2.0 * triple_area(along), along), 1e-12, 0.0);
+    printf("corner cube: |f| %.15f of %.15f\n", srp_vec3_norm(got.f),
+           2.0 * shape_corner_cube_returns(along));
+    assert_vec3_close(got.f, srp_vec3_scale(-2.0 * shape_corner_cube_returns(along), along), 1e-12,
+                      0.0);
 
     /* Askew, light that misses a mirror escapes elsewhere; what comes back pushes twice. */
     returned sum = {.s = askew, .least = 0.0};
@@ -120,8 +100,8 @@ START_TEST(corner_cube_sends_light_back) {
     srp_raytrace_watch(prepared, sum_returned, &sum);
     got = respond_to(prepared, askew);
     printf("corner cube, askew: %.15f of %.6f returned, %.15f expected\n", sum.flux, got.lit_area,
-           triple_area(askew));
-    assert_close(sum.flux, triple_area(askew), 1e-12, 0.0);
+           shape_corner_cube_returns(askew));
+    assert_close(sum.flux, shape_corner_cube_returns(askew), 1e-12, 0.0);
     assert_close(sum.flux + sum.lost, got.lit_area, 1e-12, 0.0);
     ck_assert(sum.least > -1e-12);
     assert_close(got.unresolved, 0.0, 0.0, 1e-12);
@@ -262,7 +242,7 @@ static void keep_account(void *user, const srp_bounce_event *event) {
     const srp_facet *facet = &books->scene->facets[event->facet];
     srp_vec3 momentum = srp_vec3_scale(event->flux, event->direction);
     srp_optics optics = srp_bounce_optics(books->scene, event->facet, event->back);
-    srp_vec3 mirrored = srp_bounce_mirrored(event->direction, facet->normal);
+    srp_vec3 mirrored = srp_vec3_mirrored(event->direction, facet->normal);
     books->least = fmin(books->least, event->flux);
     ++books->steps[event->step];
     switch (event->step) {

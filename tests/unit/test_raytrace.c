@@ -96,17 +96,6 @@ START_TEST(l_corner_lights_itself) {
 }
 END_TEST
 
-/* Three square mirrors of side 1 in the coordinate planes, seen from their inside. */
-static srp_scene *corner_cube(void) {
-    static const srp_vec3 v[7] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0},
-                                  {0.0, 0.0, 1.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 1.0},
-                                  {1.0, 0.0, 1.0}};
-    static const srp_triangle t[6] = {{{0, 1, 4}}, {{0, 4, 2}}, {{0, 2, 5}},
-                                      {{0, 5, 3}}, {{0, 3, 6}}, {{0, 6, 1}}};
-    const srp_optics mirror = {1.0, 0.0, false};
-    return shape_scene(shape_mesh(v, 7, t, 6, "mirror"), mirror);
-}
-
 typedef struct returned {
     srp_vec3 s;
     double flux;
@@ -120,26 +109,14 @@ static void sum_returned(void *user, const srp_bounce_event *event) {
     }
 }
 
-/*
- * Light along -s meets the plane x = 0 at the time p = x / s_x, y = 0 at q = y / s_y, z = 0 at
- * r = z / s_z, for mirrors only turn signs round. It falls within the squares each time if
- * |p - q| max(s_x, s_y) <= 1, and so on. For s_x >= s_y >= s_z this leaves of the plane (p - r,
- * q - r) the area 4ab - b^2 with a = 1 / s_x, b = 1 / s_y <= 2a, and of the cross-section s_x s_y
- * s_z times that. Seen along (1, 1, 1) it is sqrt(3): the whole aperture.
- */
-static double triple_area(srp_vec3 s) {
-    double a = 1.0 / s.x, b = 1.0 / s.y;
-    return s.x * s.y * s.z * (4.0 * a * b - b * b);
-}
-
 START_TEST(corner_cube_sends_light_back) {
-    srp_scene *scene = corner_cube();
+    srp_scene *scene = shape_corner_cube();
     const srp_vec3 s = {sqrt(1.0 / 3.0), sqrt(1.0 / 3.0), sqrt(1.0 / 3.0)};
     srp_method_params params = params_of(2, 0);
     srp_response got = trace(scene, &params, s);
     printf("corner cube: f %.9f, error %.2g\n", srp_vec3_norm(got.f), got.f_error);
-    assert_close(triple_area(s), sqrt(3.0), 1e-15, 0.0);
-    assert_within(got.f, srp_vec3_scale(-2.0 * triple_area(s), s), 3.0, got.f_error);
+    assert_close(shape_corner_cube_returns(s), sqrt(3.0), 1e-15, 0.0);
+    assert_within(got.f, srp_vec3_scale(-2.0 * shape_corner_cube_returns(s), s), 3.0, got.f_error);
 
     const srp_vec3 askew =
         srp_vec3_scale(1.0 / srp_vec3_norm((srp_vec3){0.8, 0.7, 0.45}), (srp_vec3){0.8, 0.7, 0.45});
@@ -149,8 +126,8 @@ START_TEST(corner_cube_sends_light_back) {
     srp_raytrace_watch(prepared, sum_returned, &sum);
     got = respond_to(prepared, askew);
     printf("corner cube, askew: %.6f of %.6f returned, %.6f expected\n", sum.flux, got.lit_area,
-           triple_area(askew));
-    assert_close(sum.flux, triple_area(askew), 2e-4, 0.0);
+           shape_corner_cube_returns(askew));
+    assert_close(sum.flux, shape_corner_cube_returns(askew), 2e-4, 0.0);
     srp_prepared_release(prepared);
     srp_scene_destroy(scene);
 }

@@ -51,4 +51,9 @@ static inline bool srp_vec3_is_finite(srp_vec3 a) {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
+/* The mirror image of v in a plane through the origin; n is its unit normal. */
+static inline srp_vec3 srp_vec3_mirrored(srp_vec3 v, srp_vec3 n) {
+    return srp_vec3_add_scaled(v, -2.0 * srp_vec3_dot(v, n), n);
+}
+
 #endif

@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The exact method, one direction at a time, for methods that add to its light. Internal. */
-#ifndef SRP_SRC_EXACT_KERNEL_H
-#define SRP_SRC_EXACT_KERNEL_H
+/* From sunlit parts of facets to sums per material. Internal. */
+#ifndef SRP_SRC_EXACT_LIT_H
+#define SRP_SRC_EXACT_LIT_H
 
 #include "exact_visible.h"
 #include "method_internal.h"
 #include "scene_internal.h"
-
-/* Its `prepared` is one of srp_method_exact. */
-extern const srp_direction_kernel srp_exact_kernel;
 
 /* Adds sunlit parts to the (material count + 1) sums. */
 static inline void srp_exact_add_lit(const srp_scene *scene, srp_vec3 reference, const srp_lit *lit,
