@@ -2,6 +2,7 @@
 /* srp propagate: an orbit with the chosen model of radiation pressure. */
 #include "commands.h"
 #include "messages.h"
+#include "methods.h"
 #include "progress.h"
 #include "system.h"
 
@@ -277,6 +278,10 @@ static void print_summary(const srp_mission_info *info, const srp_mission_summar
            (unsigned long long)sum->counts.steps, (unsigned long long)sum->counts.rejected,
            (unsigned long long)sum->counts.cut);
     printf("force calls    %llu\n", (unsigned long long)sum->counts.calls);
+    if (sum->nodes_total > 0) {
+        printf("nodes          %zu computed, %zu from the cache, %zu in the grid\n",
+               sum->nodes_computed, sum->nodes_cached, sum->nodes_total);
+    }
     printf("SRP            %s, impulse %.6g m/s\n", info->model, sum->impulse);
     printf("eclipses       %zu penumbras (%.1f s), %zu umbras (%.1f s)\n", sum->penumbras,
            sum->in_penumbra, sum->umbras, sum->in_umbra);
@@ -370,9 +375,22 @@ static int propagate_both(const propagate_options *options, const srp_mission *a
     return status;
 }
 
+static const srp_method *find_method(void *user, const char *name, const char *device) {
+    const srp_method *method;
+    (void)user;
+    for (size_t i = 0; (method = cli_method_at(i)) != NULL; ++i) {
+        if (strcmp(method->name, name) == 0 && strcmp(method->device, cli_device_of(device)) == 0) {
+            return method;
+        }
+    }
+    return NULL;
+}
+
 static int propagate(const propagate_options *options, const cli_operands *operands) {
     srp_mission *a = NULL, *b = NULL;
-    srp_log log = cli_log();
+    const srp_log log = cli_log();
+    const srp_cache_params cache = srp_cache_params_default();
+    const srp_mission_context context = {&log, find_method, NULL, &cache};
     srp_error error;
     if (operands->count != 1) {
         return cli_usage_error("expected one file, MISSION.yaml, found %zu", operands->count);
@@ -382,11 +400,12 @@ static int propagate(const propagate_options *options, const cli_operands *opera
             "--output goes with --versus; files of one orbit are --oem, --report "
             "and --events");
     }
-    if (srp_mission_read(operands->items[0], &log, &a, &error) != SRP_OK) {
+    if (srp_mission_read(operands->items[0], &context, &a, &error) != SRP_OK) {
         return cli_input_error(&error);
     }
     int status = CLI_DONE;
-    if (options->versus != NULL && srp_mission_read(options->versus, &log, &b, &error) != SRP_OK) {
+    if (options->versus != NULL &&
+        srp_mission_read(options->versus, &context, &b, &error) != SRP_OK) {
         status = cli_input_error(&error);
     }
     cli_system_catch_signals();

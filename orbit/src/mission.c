@@ -339,21 +339,24 @@ static srp_status read_columns(const mission_source *source, srp_mission *missio
 
 /* ---- Life ------------------------------------------------------------------------------------ */
 
-static srp_status build(const mission_source *source, const srp_log *log, srp_mission *mission,
-                        srp_error *error) {
+static srp_status build(const mission_site *site, srp_error *error) {
+    const mission_source *source = site->source;
+    srp_mission *mission = site->mission;
     srp_status status = check_texts(source, error);
     status = status == SRP_OK ? keep_texts(source, mission, error) : status;
-    status = status == SRP_OK ? read_times(source, log, mission, error) : status;
+    status = status == SRP_OK ? read_times(source, site->context->log, mission, error) : status;
     status = status == SRP_OK ? read_constants(source, mission, error) : status;
     status = status == SRP_OK ? read_spacecraft(source, mission, error) : status;
     status = status == SRP_OK ? read_integrator(source, mission, error) : status;
     status = status == SRP_OK ? read_columns(source, mission, error) : status;
-    status = status == SRP_OK ? mission_build_forces(source, log, mission, error) : status;
+    status = status == SRP_OK ? mission_build_forces(site, error) : status;
     return status == SRP_OK ? read_start(source, mission, error) : status;
 }
 
-srp_status srp_mission_parse(const char *text, size_t size, const char *name, const srp_log *log,
-                             srp_mission **out, srp_error *error) {
+srp_status srp_mission_parse(const char *text, size_t size, const char *name,
+                             const srp_mission_context *context, srp_mission **out,
+                             srp_error *error) {
+    static const srp_mission_context NOTHING = {NULL, NULL, NULL, NULL};
     srp_c_locale locale = srp_platform_c_locale_enter();
     mission_source *source = NULL;
     srp_mission *mission = NULL;
@@ -367,7 +370,8 @@ srp_status srp_mission_parse(const char *text, size_t size, const char *name, co
         mission->propagator = srp_propagator_params_default();
         mission->propagator.apsides = true;
         mission->info.model = "none";
-        status = build(source, log, mission, error);
+        const mission_site site = {source, context != NULL ? context : &NOTHING, mission};
+        status = build(&site, error);
     }
     mission_source_close(source);
     srp_platform_c_locale_leave(locale);
@@ -379,13 +383,13 @@ srp_status srp_mission_parse(const char *text, size_t size, const char *name, co
     return SRP_OK;
 }
 
-srp_status srp_mission_read(const char *path, const srp_log *log, srp_mission **out,
+srp_status srp_mission_read(const char *path, const srp_mission_context *context, srp_mission **out,
                             srp_error *error) {
     char *text;
     size_t size;
     srp_status status = srp_text_read_file(path, &text, &size, error);
     if (status == SRP_OK) {
-        status = srp_mission_parse(text, size, path, log, out, error);
+        status = srp_mission_parse(text, size, path, context, out, error);
         free(text);
     }
     return status;
@@ -393,7 +397,10 @@ srp_status srp_mission_read(const char *path, const srp_log *log, srp_mission **
 
 void srp_mission_destroy(srp_mission *mission) {
     if (mission != NULL) {
-        srp_force_list_destroy(mission->forces);
+        srp_force_list_destroy(mission->forces); /* and the interpolants in it */
+        srp_demand_destroy(mission->demand);
+        srp_cache_close(mission->cache);
+        mission_failure_destroy(mission->failure);
         srp_prepared_release(mission->prepared);
         srp_scene_destroy(mission->scene);
         srp_gravity_destroy(mission->gravity);
@@ -471,6 +478,9 @@ static srp_status give_row(runner *run, srp_error *error) {
                            .v = srp_propagator_velocity(run->propagator),
                            .impulse = srp_propagator_impulse(run->propagator),
                            .matrix = srp_propagator_matrix(run->propagator)};
+    if (mission->demand != NULL) {
+        row.nodes = srp_demand_count(mission->demand).computed;
+    }
     if (mission->radiation != NULL) {
         srp_vec3 bodies[SRP_CELESTIAL_COUNT];
         srp_ephemeris_positions(mission->ephemeris, mission->info.central, row.t, bodies);
@@ -513,6 +523,32 @@ static srp_status go(runner *run, srp_error *error) {
     return status;
 }
 
+/* Exchanges nodes with the cache. What goes wrong is said when the mission is destroyed, which
+ * tries again. */
+static void share_nodes(const srp_mission *mission) {
+    srp_error why;
+    srp_status status = mission->demand != NULL ? srp_demand_flush(mission->demand, &why) : SRP_OK;
+    (void)status;
+}
+
+static void sum_up(const runner *run, srp_mission_summary *sum) {
+    const srp_mission *mission = run->mission;
+    const srp_demand_counts none = {0, 0, 0, 0}, nodes = mission->demand != NULL
+                                                             ? srp_demand_count(mission->demand)
+                                                             : none;
+    sum->nodes_total = nodes.total;
+    sum->nodes_computed = nodes.computed;
+    sum->nodes_cached = nodes.ready - nodes.computed;
+    const double t = srp_propagator_time(run->propagator);
+    sum->counts = srp_propagator_get_counts(run->propagator);
+    sum->impulse = srp_propagator_impulse(run->propagator);
+    sum->r = srp_propagator_position(run->propagator);
+    sum->v = srp_propagator_velocity(run->propagator);
+    sum->in_penumbra += isnan(run->since[0]) ? 0.0 : t - run->since[0];
+    sum->in_umbra += isnan(run->since[1]) ? 0.0 : t - run->since[1];
+    sum->in_penumbra = fmax(0.0, sum->in_penumbra - sum->in_umbra);
+}
+
 srp_status srp_mission_run(const srp_mission *mission, const srp_mission_watch *watch,
                            srp_mission_summary *out, srp_error *error) {
     runner run = {.mission = mission, .watch = watch, .since = {NAN, NAN}};
@@ -521,19 +557,15 @@ srp_status srp_mission_run(const srp_mission *mission, const srp_mission_watch *
     if (status != SRP_OK) {
         return status;
     }
+    share_nodes(mission);
     status = go(&run, error);
     if (status == SRP_OK) {
-        srp_mission_summary *sum = &run.summary;
-        const double t = srp_propagator_time(run.propagator);
-        sum->counts = srp_propagator_get_counts(run.propagator);
-        sum->impulse = srp_propagator_impulse(run.propagator);
-        sum->r = srp_propagator_position(run.propagator);
-        sum->v = srp_propagator_velocity(run.propagator);
-        sum->in_penumbra += isnan(run.since[0]) ? 0.0 : t - run.since[0];
-        sum->in_umbra += isnan(run.since[1]) ? 0.0 : t - run.since[1];
-        sum->in_penumbra = fmax(0.0, sum->in_penumbra - sum->in_umbra);
-        *out = *sum;
+        sum_up(&run, &run.summary);
+        *out = run.summary;
+    } else if (status != SRP_CANCELLED && mission_failure_get(mission->failure, error)) {
+        status = error != NULL ? error->status : SRP_BAD_DATA;
     }
+    share_nodes(mission); /* however the run has ended */
     srp_propagator_destroy(run.propagator);
     return status;
 }

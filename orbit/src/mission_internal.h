@@ -3,6 +3,8 @@
 #ifndef SRP_ORBIT_SRC_MISSION_INTERNAL_H
 #define SRP_ORBIT_SRC_MISSION_INTERNAL_H
 
+#include <srp/cache.h>
+#include <srp/demand.h>
 #include <srp/orbit/mission.h>
 
 #include <stdint.h>
@@ -32,10 +34,19 @@ typedef struct mission_gravity {
     char *file, *degree, *order, *ut1_minus_utc, *pole_x, *pole_y;
 } mission_gravity;
 
+typedef struct mission_material {
+    char *name, *rho_s, *rho_d, *one_sided;
+} mission_material;
+
 typedef struct mission_radiation {
-    char *model, *file, *interpolation, *method, *scale, *cr, *area, *flux, *au, *sun_radius;
+    char *model, *file, *interpolation, *scale, *cr, *area, *flux, *au, *sun_radius;
+    char *unit, *method, *device, *grid, *pixel, *tolerance, *max_grid, *seed;
+    char *reflections, *diffuse, *beams, *threads;
+    char *step, *az_step, *el_step, *cache;
     char **shadow;
     unsigned shadow_count;
+    mission_material *materials;
+    unsigned material_count;
 } mission_radiation;
 
 typedef struct mission_forces {
@@ -114,13 +125,18 @@ srp_status mission_positive(const mission_source *source, const char *path, cons
 srp_status mission_flag(const mission_source *source, const char *path, const char *text, bool *out,
                         srp_error *error);
 srp_status mission_count(const mission_source *source, const char *path, const char *text,
-                         unsigned max, unsigned *out, srp_error *error);
+                         unsigned min, unsigned max, unsigned *out, srp_error *error);
+srp_status mission_bits(const mission_source *source, const char *path, const char *text,
+                        uint64_t *out, srp_error *error);
 /* Like strdup. */
 char *mission_copy(const char *text);
 /* `file` as seen from the directory of the mission; freed by free(). */
 char *mission_beside(const char *mission, const char *file);
 
 /* ---- The mission ----------------------------------------------------------------------------- */
+
+/* Why a model that computes as it goes could not; the first failure is kept. */
+typedef struct mission_failure mission_failure;
 
 struct srp_mission {
     srp_mission_info info;
@@ -134,14 +150,54 @@ struct srp_mission {
     srp_gravity *gravity;
     srp_scene *scene;
     srp_prepared *prepared;
+    srp_cache *cache;         /* NULL: none */
+    srp_demand *demand;       /* NULL: none */
+    mission_failure *failure; /* of the model on demand */
     srp_force_list *forces;
     const srp_force *radiation; /* in the list, or NULL */
 };
 
-/* The parts of mission_build.c. */
-srp_status mission_build_forces(const mission_source *source, const srp_log *log,
-                                srp_mission *mission, srp_error *error);
-srp_status mission_build_attitude(const mission_source *source, const srp_mission *mission,
-                                  srp_attitude *out, srp_error *error);
+/* ---- Building -------------------------------------------------------------------------------- */
+
+/* What the parts of a mission are built from. */
+typedef struct mission_site {
+    const mission_source *source;
+    const srp_mission_context *context;
+    srp_mission *mission;
+} mission_site;
+
+/* mission_build.c */
+srp_status mission_build_forces(const mission_site *site, srp_error *error);
+/* Tells an error of a constructor at an entry of the mission; one that has a file keeps it. */
+srp_status mission_at_entry(const mission_source *source, const char *path, srp_status status,
+                            const srp_error *why, srp_error *error);
+/* A file that cannot be opened, or is wrong as a whole, is told at the entry that names it. */
+srp_status mission_at_file(const mission_source *source, const char *path, srp_status status,
+                           const srp_error *why, srp_error *error);
+/* `text` must be there. */
+srp_status mission_need(const mission_source *source, const char *path, const char *text,
+                        const char *key, srp_error *error);
+
+/* mission_attitude.c */
+srp_status mission_build_attitude(const mission_site *site, srp_attitude *out, srp_error *error);
+
+/* mission_model.c */
+srp_status mission_build_model(const mission_site *site, srp_area_model *out, srp_error *error);
+void mission_failure_destroy(mission_failure *failure);
+/* Whether there was one; then *error is it. */
+bool mission_failure_get(const mission_failure *failure, srp_error *error);
+
+/* mission_method.c: reads the OBJ file at `path` and prepares the method that the entries of
+ * `forces.radiation` ask for; mission->scene and ->prepared. `threads`: where the file is silent.
+ */
+srp_status mission_prepare_mesh(const mission_site *site, const char *path, int threads,
+                                srp_error *error);
+
+/* Warns of entries that are given and mean nothing: `model` uses none of them. */
+typedef struct mission_key {
+    const char *name, *text;
+} mission_key;
+void mission_warn_unused(const mission_site *site, const char *group, const char *what,
+                         size_t count, const mission_key *keys);
 
 #endif

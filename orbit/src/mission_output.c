@@ -177,7 +177,7 @@ static void put_column(FILE *out, const srp_mission_info *info, srp_column colum
         put_numbers(out, &row->light.matrix[0][0], 9);
         break;
     case SRP_COLUMN_NODES:
-        fputs("0", out);
+        fprintf(out, "%zu", row->nodes);
         break;
     default:
         put_numbers(out, row->matrix, 36);

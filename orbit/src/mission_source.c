@@ -73,17 +73,49 @@ static const cyaml_schema_field_t GRAVITY[] = {
     TEXT("pole_y", mission_gravity, pole_y),
     CYAML_FIELD_END};
 
+static const cyaml_schema_field_t MATERIAL[] = {
+    NEEDED("name", mission_material, name), NEEDED("rho_s", mission_material, rho_s),
+    NEEDED("rho_d", mission_material, rho_d), TEXT("one_sided", mission_material, one_sided),
+    CYAML_FIELD_END};
+
+static const cyaml_schema_value_t ONE_MATERIAL = {
+    CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, mission_material, MATERIAL),
+};
+
 static const cyaml_schema_field_t RADIATION[] = {
     NEEDED("model", mission_radiation, model),
     TEXT("file", mission_radiation, file),
     TEXT("interpolation", mission_radiation, interpolation),
-    TEXT("method", mission_radiation, method),
     TEXT("scale", mission_radiation, scale),
     TEXT("cr", mission_radiation, cr),
     TEXT("area", mission_radiation, area),
     TEXT("flux", mission_radiation, flux),
     TEXT("au", mission_radiation, au),
     TEXT("sun_radius", mission_radiation, sun_radius),
+    TEXT("unit", mission_radiation, unit),
+    TEXT("method", mission_radiation, method),
+    TEXT("device", mission_radiation, device),
+    TEXT("grid", mission_radiation, grid),
+    TEXT("pixel", mission_radiation, pixel),
+    TEXT("tolerance", mission_radiation, tolerance),
+    TEXT("max_grid", mission_radiation, max_grid),
+    TEXT("seed", mission_radiation, seed),
+    TEXT("reflections", mission_radiation, reflections),
+    TEXT("diffuse", mission_radiation, diffuse),
+    TEXT("beams", mission_radiation, beams),
+    TEXT("threads", mission_radiation, threads),
+    TEXT("step", mission_radiation, step),
+    TEXT("az_step", mission_radiation, az_step),
+    TEXT("el_step", mission_radiation, el_step),
+    TEXT("cache", mission_radiation, cache),
+    {.key = "materials",
+     .value = {.type = CYAML_SEQUENCE,
+               .flags = CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL,
+               .data_size = sizeof(mission_material),
+               .sequence = {.entry = &ONE_MATERIAL, .min = 0, .max = 1000}},
+     .data_offset = offsetof(mission_radiation, materials),
+     .count_offset = offsetof(mission_radiation, material_count),
+     .count_size = sizeof(((mission_radiation *)NULL)->material_count)},
     WORDS("shadow", mission_radiation, shadow, shadow_count),
     CYAML_FIELD_END};
 

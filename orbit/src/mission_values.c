@@ -154,16 +154,35 @@ srp_status mission_flag(const mission_source *source, const char *path, const ch
 }
 
 srp_status mission_count(const mission_source *source, const char *path, const char *text,
-                         unsigned max, unsigned *out, srp_error *error) {
+                         unsigned min, unsigned max, unsigned *out, srp_error *error) {
     if (text == NULL) {
         return SRP_OK;
     }
     const size_t size = strlen(text);
-    if (size > 8 || strspn(text, "0123456789") < size || strtoul(text, NULL, 10) > max) {
+    const bool whole = size <= 9 && strspn(text, "0123456789") == size;
+    const unsigned long value = whole ? strtoul(text, NULL, 10) : 0;
+    if (!whole || value < min || value > max) {
         return mission_fail(source, error, SRP_BAD_DATA, path,
-                            "found '%.80s', expected a whole number from 0 to %u", text, max);
+                            "found '%.80s', expected a whole number from %u to %u", text, min, max);
     }
-    *out = (unsigned)strtoul(text, NULL, 10);
+    *out = (unsigned)value;
+    return SRP_OK;
+}
+
+srp_status mission_bits(const mission_source *source, const char *path, const char *text,
+                        uint64_t *out, srp_error *error) {
+    uint64_t value = 0;
+    for (const char *at = text; at != NULL && *at != '\0'; ++at) {
+        const unsigned digit = (unsigned)(*at - '0');
+        if (digit > 9 || value > (UINT64_MAX - digit) / 10) {
+            return mission_fail(source, error, SRP_BAD_DATA, path,
+                                "found '%.80s', expected a whole number from 0 to 2^64 - 1", text);
+        }
+        value = 10 * value + digit;
+    }
+    if (text != NULL) {
+        *out = value;
+    }
     return SRP_OK;
 }
 

@@ -478,10 +478,11 @@ START_TEST(epochs_beyond_the_leap_seconds_are_warned_of) {
     srp_error error;
     int warnings = 0;
     const srp_log log = {count_warning, &warnings};
+    const srp_mission_context context = {&log, NULL, NULL, NULL};
     compose(text, 2, "epoch: 2070-03-20T00:00:00 UTC");
-    assert_ok(
-        srp_mission_parse(text, strlen(text), SRP_MODELS_DIR "/test.yaml", &log, &mission, &error),
-        error);
+    assert_ok(srp_mission_parse(text, strlen(text), SRP_MODELS_DIR "/test.yaml", &context, &mission,
+                                &error),
+              error);
     ck_assert_int_eq(warnings, 1);
     srp_mission_destroy(mission);
 }

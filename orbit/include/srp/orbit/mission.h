@@ -10,7 +10,9 @@
 #ifndef SRP_ORBIT_MISSION_H
 #define SRP_ORBIT_MISSION_H
 
+#include <srp/cache.h>
 #include <srp/export.h>
+#include <srp/method.h>
 #include <srp/orbit/propagator.h>
 #include <srp/status.h>
 #include <srp/vec3.h>
@@ -22,18 +24,33 @@ SRP_BEGIN_DECLS
 
 typedef struct srp_mission srp_mission;
 
+/* What a mission may use besides the files that it names; each may be NULL. */
+typedef struct srp_mission_context {
+    const srp_log *log;
+    /* A method by name and device ("cpu", "gl"), of whichever library; NULL: there is none. Must
+     * stay as long as the mission. NULL: those of srpcore, on "cpu". */
+    const srp_method *(*find_method)(void *user, const char *name, const char *device);
+    void *user;
+    /* Where tables on demand are remembered, unless the mission says `cache: false`. NULL: nowhere.
+     */
+    const srp_cache_params *cache;
+} srp_mission_context;
+
 /*
  * Reads a mission and all files that it names, which are looked for beside it. Every complaint
- * about the content has the line and column of the entry at fault. SRP_NOT_FOUND, SRP_IO,
- * SRP_BAD_FORMAT (not YAML, unknown or missing key, no number, no such unit), SRP_BAD_DATA (a value
- * that cannot be), SRP_UNSUPPORTED (a feature that is not there), SRP_NO_MEMORY.
+ * about the content has the line and column of the entry at fault. `context` may be NULL. With a
+ * table on demand, the nodes that every look-up needs are computed here, or taken from the cache.
+ * SRP_NOT_FOUND, SRP_IO, SRP_BAD_FORMAT (not YAML, unknown or missing key, no number, no such
+ * unit), SRP_BAD_DATA (a value that cannot be), SRP_UNSUPPORTED (a feature that is not there),
+ * SRP_NO_MEMORY.
  */
-SRP_API SRP_CHECK srp_status srp_mission_read(const char *path, const srp_log *log,
+SRP_API SRP_CHECK srp_status srp_mission_read(const char *path, const srp_mission_context *context,
                                               srp_mission **out, srp_error *error);
 /* The same from memory; `name` stands for the file in messages and says where other files lie. */
 SRP_API SRP_CHECK srp_status srp_mission_parse(const char *text, size_t size, const char *name,
-                                               const srp_log *log, srp_mission **out,
-                                               srp_error *error);
+                                               const srp_mission_context *context,
+                                               srp_mission **out, srp_error *error);
+/* Writes what is new of a table on demand to the cache. */
 SRP_API void srp_mission_destroy(srp_mission *mission);
 
 /* Columns of the report; some stand for several. */
@@ -51,7 +68,7 @@ typedef enum srp_column {
     SRP_COLUMN_SEEN,     /* share of the Sun */
     SRP_COLUMN_IMPULSE,  /* impulse_m_s */
     SRP_COLUMN_ATTITUDE, /* m11 ... m33, inertial to body */
-    SRP_COLUMN_NODES,    /* of a table on demand, computed so far; 0 for other models */
+    SRP_COLUMN_NODES,    /* of a table on demand, computed in this run; 0 for other models */
     SRP_COLUMN_MATRIX,   /* phi11 ... phi66: state transition, m and s */
     SRP_COLUMN_COUNT
 } srp_column;
@@ -82,6 +99,7 @@ typedef struct srp_mission_row {
     bool lit; /* there is radiation pressure: `light` holds */
     srp_radiation_probe light;
     double impulse;       /* [m/s] */
+    size_t nodes;         /* of a table on demand, computed since the mission was read */
     const double *matrix; /* (6 x 6); NULL without partials */
 } srp_mission_row;
 
@@ -100,10 +118,14 @@ typedef struct srp_mission_summary {
     size_t penumbras, umbras;     /* entered */
     double in_penumbra, in_umbra; /* [s]; the penumbra's without the umbra's */
     srp_vec3 r, v;                /* at the end */
+    /* Of a table on demand, 0 for other models: directions of its grid, those computed since the
+     * mission was read, those found in the cache. */
+    size_t nodes_total, nodes_computed, nodes_cached;
 } srp_mission_summary;
 
 /* SRP_BAD_DATA (the orbit meets the surface of the central body, and as srp_propagator_advance()),
- * SRP_CANCELLED, SRP_NO_MEMORY, and what `row` returned. */
+ * SRP_CANCELLED, SRP_NO_MEMORY, what `row` returned, and what a table on demand met. New nodes of
+ * such a table are written to the cache at the end, also of a run that fails. */
 SRP_API SRP_CHECK srp_status srp_mission_run(const srp_mission *mission,
                                              const srp_mission_watch *watch,
                                              srp_mission_summary *out, srp_error *error);
