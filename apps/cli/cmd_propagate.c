@@ -438,6 +438,9 @@ const cli_command cli_command_propagate = {
         "Integrates an orbit that a mission file describes: epoch, state, spacecraft, attitude, "
         "forces, output. Sun, Moon and planets come from ERFA, shadows of several bodies are "
         "followed to their edges.\n\n"
+        "The model of radiation pressure is a cannonball, plates, a table, a mesh that is asked at "
+        "each call, or a table on demand, which fills itself as the orbit asks and keeps its "
+        "nodes in the cache ('srp cache').\n\n"
         "Prints a summary. The orbit goes into files that the mission or the options name: a "
         "CCSDS Orbit Ephemeris Message, a report of columns that the mission chooses, events.",
     .examples = "srp propagate geo.yaml\n"

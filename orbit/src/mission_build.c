@@ -17,7 +17,9 @@ srp_status mission_at_entry(const mission_source *source, const char *path, srp_
         }
         return status;
     }
-    return mission_fail(source, error, SRP_BAD_DATA, path, "%s", why->message);
+    /* What is a wrong argument to a constructor is wrong data in a file. */
+    return mission_fail(source, error, status == SRP_BAD_ARGUMENT ? SRP_BAD_DATA : status, path,
+                        "%s", why->message);
 }
 
 srp_status mission_at_file(const mission_source *source, const char *path, srp_status status,

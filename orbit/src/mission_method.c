@@ -58,21 +58,14 @@ static srp_status add_material(const mission_source *source, const mission_radia
     return mission_at_entry(source, path, status, &why, error);
 }
 
-/* Materials that the mission gives optics to and the mesh does not have. */
-static void warn_of_materials(const mission_site *site, const mission_radiation *in,
-                              const srp_scene *scene) {
-    const size_t count = srp_scene_material_count(scene);
-    for (unsigned i = 0; i < in->material_count; ++i) {
-        char path[64];
-        size_t k = 0;
-        while (k < count && strcmp(srp_scene_material_name(scene, k), in->materials[i].name) != 0) {
-            ++k;
-        }
-        snprintf(path, sizeof path, "forces.radiation.materials.%u", i);
-        if (k == count) {
-            mission_warn(site->source, site->context->log, path, "the mesh has no material '%.80s'",
-                         in->materials[i].name);
-        }
+/* What the library says of materials has no place, as it does not know where they were given. */
+static void place_log(void *user, const srp_error *what) {
+    const mission_site *site = user;
+    const srp_log *log = site->context->log;
+    if (log != NULL && what->file[0] == '\0') {
+        mission_warn(site->source, log, "forces.radiation.materials", "%s", what->message);
+    } else if (log != NULL && log->warn != NULL) {
+        log->warn(log->user, what);
     }
 }
 
@@ -90,14 +83,11 @@ static srp_status read_mesh(const mission_site *site, const mission_radiation *i
     }
     if (status == SRP_OK) {
         srp_error why;
-        status = srp_scene_read_obj(&path, 1, &params, given, site->context->log,
-                                    &site->mission->scene, &why);
+        const srp_log log = {place_log, (void *)site};
+        status = srp_scene_read_obj(&path, 1, &params, given, &log, &site->mission->scene, &why);
         status = mission_at_file(source, "forces.radiation.file", status, &why, error);
     }
     srp_materials_destroy(given);
-    if (status == SRP_OK) {
-        warn_of_materials(site, in, site->mission->scene);
-    }
     return status;
 }
 

@@ -186,7 +186,7 @@ static srp_status read_step(const mission_source *source, const char *path, cons
     double step = *deg * SRP_RAD_PER_DEG;
     srp_status status = mission_positive(source, path, text, MISSION_ANGLE, &step, error);
     if (status == SRP_OK && text != NULL) {
-        /* "5 deg" comes back as 5 to the last digits: srp_grid_from_steps() asks for 1e-9. */
+        /* To the last digits, of which srp_grid_from_steps() asks for nine. */
         *deg = step / SRP_RAD_PER_DEG;
     }
     return status;
@@ -211,11 +211,13 @@ static srp_status read_grid(const mission_source *source, const mission_radiatio
     if (status != SRP_OK) {
         return status;
     }
-    status = srp_grid_from_steps(step[0], step[1], grid, &why);
-    return mission_at_entry(source,
-                            in->step != NULL || in->az_step == NULL ? "forces.radiation.step"
-                                                                    : "forces.radiation.az_step",
-                            status, &why, error);
+    const char *path = in->az_step != NULL ? "forces.radiation.az_step" : "forces.radiation.step";
+    status = srp_grid_from_steps(step[0], 90.0, grid, &why);
+    if (status == SRP_OK) {
+        path = in->el_step != NULL ? "forces.radiation.el_step" : "forces.radiation.step";
+        status = srp_grid_from_steps(step[0], step[1], grid, &why);
+    }
+    return mission_at_entry(source, path, status, &why, error);
 }
 
 /* Without the cache where there is none: that costs time, and is warned of. */

@@ -2,6 +2,7 @@
 # srp propagate: missions of models/, files, differences, mistakes.
 . "$ROOT/tests/cli/lib.sh"
 MISSIONS=$MODELS/missions
+export XDG_CACHE_HOME=$PWD/../home
 
 if ! "$SRP" --help | grep -q propagate; then
     skip "srp was built without the propagator"
@@ -32,6 +33,41 @@ sed -e "s#file: \.\./#file: $MODELS/#" -e "s/^duration.*/duration: 30 d/" "$MISS
 expect 0 propagate l2.yaml --report l2.csv
 awk -F, 'NR > 1 { d = sqrt($3^2 + $4^2 + $5^2); if (d < 1.2e6 || d > 1.8e6) { exit 1 } }' l2.csv ||
     fail "the observatory has left L2"
+rm -f ./*
+
+# ---- a table on demand: the second run computes nothing, and gives the same orbit ----
+rm -rf "$XDG_CACHE_HOME"
+sed -e "s#file: \.\./#file: $MODELS/#; s#file: egm96#file: $MISSIONS/egm96#" \
+    -e "s/^duration: .*/duration: 1 d/; s/step: 2 deg/step: 6 deg/" "$MISSIONS/gps-on-demand.yaml" > gps.yaml
+expect 0 propagate gps.yaml --oem 1.oem --report 1.csv
+silent
+check "nothing was computed" grep -q "^nodes  *[1-9][0-9]* computed, 0 from the cache, 1742 in the grid" ../log/out
+check "the cache is empty" test -n "$(ls "$XDG_CACHE_HOME/srpcore")"
+expect 0 propagate gps.yaml --oem 2.oem --report 2.csv
+check "the cache was not read" grep -q "^nodes  *0 computed, [1-9][0-9]* from the cache" ../log/out
+check "the orbits differ" cmp <(grep -v CREATION 1.oem) <(grep -v CREATION 2.oem)
+awk -F, 'NR > 1 { if ($NF < last) { exit 1 } last = $NF } END { exit last == 0 }' 1.csv ||
+    fail "the column of nodes does not count"
+awk -F, 'NR > 1 && $NF != 0 { exit 1 }' 2.csv || fail "the second run has computed nodes"
+# Not where it is not wanted; where it cannot be used, with a warning.
+sed "s/interpolation: bicubic/cache: no/" gps.yaml > forgetful.yaml
+expect 0 propagate forgetful.yaml
+check "the cache was read" grep -q "^nodes  *[1-9][0-9]* computed, 0 from" ../log/out
+XDG_CACHE_HOME=/dev/null expect 0 propagate gps.yaml
+says "warning"
+check "nothing was computed" grep -q "^nodes  *[1-9][0-9]* computed, 0 from" ../log/out
+# The other half of --versus takes what the first has just computed.
+expect 0 propagate gps.yaml --versus forgetful.yaml -o same.csv
+awk -F, 'NR > 1 && $5 != 0 { exit 1 }' same.csv || fail "a table from the cache gives another orbit"
+# By OpenGL, where this srp has it and there is a driver.
+sed "s/interpolation: bicubic/device: gl/; s/step: 6 deg/step: 30 deg/" gps.yaml > gl.yaml
+if "$SRP" force --help | grep -q "gl:osmesa"; then
+    "$SRP" force "$MODELS/cube.obj" --az 10 --el 10 --method raycast --device gl > /dev/null 2>&1 &&
+        expect 0 propagate gl.yaml
+else
+    expect 1 propagate gl.yaml
+    says "gl.yaml:$(grep -n "device: gl" gl.yaml | cut -d: -f1):"
+fi
 rm -f ./*
 
 # ---- the same mission gives the same bytes; the date of creation can be fixed ----

@@ -14,10 +14,12 @@
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *old, size_t size);
+void *__real_aligned_alloc(size_t boundary, size_t size);
 void __real_free(void *old);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *old, size_t size);
+void *__wrap_aligned_alloc(size_t boundary, size_t size);
 void __wrap_free(void *old);
 
 static long until_failure, held;
@@ -46,6 +48,10 @@ void *__wrap_realloc(void *old, size_t size) {
     }
     void *block = __real_realloc(old, size);
     return old == NULL ? taken(block) : block;
+}
+
+void *__wrap_aligned_alloc(size_t boundary, size_t size) {
+    return fails() ? NULL : taken(__real_aligned_alloc(boundary, size));
 }
 
 void __wrap_free(void *old) {
@@ -166,11 +172,13 @@ static srp_status try_propagator(srp_error *error) {
 }
 
 #ifdef SRP_HAS_MISSIONS
+#define HEAD                                                                                       \
+    "epoch: 2024-03-20 TT\nduration: 1 h\nspacecraft: {mass: 9 kg, attitude: {mode: sun}}\n"       \
+    "state: {position: 7000 0 0 km, velocity: 0 7.5 0 km/s}\n"
+
 /* libcyaml's and libyaml's own allocations are not ours. */
 static srp_status try_mission(srp_error *error) {
-    static const char TEXT[] =
-        "epoch: 2024-03-20 TT\nduration: 1 h\nspacecraft: {mass: 9 kg, attitude: {mode: sun}}\n"
-        "state: {position: 7000 0 0 km, velocity: 0 7.5 0 km/s}\n"
+    static const char TEXT[] = HEAD
         "forces: {point_masses: [sun, moon], radiation: {model: plates, file: box-wing.plates}}\n";
     srp_mission *out = NULL;
     srp_mission_file *file = NULL;
@@ -185,16 +193,32 @@ static srp_status try_mission(srp_error *error) {
     srp_mission_destroy(out);
     return status;
 }
+
+static srp_status try_on_demand(srp_error *error) {
+    static const char TEXT[] =
+        HEAD "forces: {radiation: {model: on_demand, file: cube.obj, step: 30 deg, threads: 1}}\n";
+    srp_mission *out = NULL;
+    srp_status status =
+        srp_mission_parse(TEXT, sizeof TEXT - 1, SRP_MODELS_DIR "/t.yaml", NULL, &out, error);
+    const bool right = (status == SRP_OK) == (out != NULL);
+    srp_mission_destroy(out);
+    return right ? status : SRP_MISMATCH;
+}
 #endif
 
 static const struct {
     const char *name;
     srp_status (*try)(srp_error *error);
 } TRIES[] = {
-    {"ephemeris", try_ephemeris}, {"list", try_list}, {"gravity", try_gravity},
-    {"radiation", try_radiation}, {"aem", try_aem},   {"propagator", try_propagator},
+    {"ephemeris", try_ephemeris},
+    {"list", try_list},
+    {"gravity", try_gravity},
+    {"radiation", try_radiation},
+    {"aem", try_aem},
+    {"propagator", try_propagator},
 #ifdef SRP_HAS_MISSIONS
     {"mission", try_mission},
+    {"on_demand", try_on_demand},
 #endif
 };
 

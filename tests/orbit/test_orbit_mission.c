@@ -138,7 +138,7 @@ static const mistake MISTAKES[] = {
     {22, "", 0, SRP_BAD_FORMAT, "model"},
     {22, "    model: sail", 22, SRP_BAD_DATA, "cannonball, plates"},
     {22, "    model: cannonball", 0, SRP_BAD_FORMAT, "cr"},
-    {22, "    model: on_demand", 22, SRP_UNSUPPORTED, "not there yet"},
+    {22, "    model: on_demand", 23, SRP_BAD_FORMAT, "box-wing.plates"},
     {22, "    model: table", 23, SRP_BAD_DATA, "no name of a table"},
     {22, "    model: direct", 0, SRP_BAD_FORMAT, ""},
     {23, "    file: no-such.plates", 23, SRP_NOT_FOUND, "no-such.plates"},
