@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the build to a scratch prefix and builds a project outside the tree against it, through
 # the CMake package and through pkg-config.
-#   cmake -D BUILD=... -D GL=... -D SOURCE=... -D EXAMPLE=... -D MODEL=... -D SCRATCH=... -D CC=... -D CXX=... -D PKG_CONFIG=... -P ...
+#   cmake -D BUILD=... -D GL=... -D ORBIT=... -D SOURCE=... -D EXAMPLE=... -D MODEL=... -D SCRATCH=... -D CC=... -D CXX=... -D PKG_CONFIG=... -P ...
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -25,12 +25,15 @@ endforeach()
 run(${SCRATCH}/cmake/example ${MODEL})
 set(example_output "${output}")
 
-if(EXISTS ${SCRATCH}/cmake/consumer_gl)
-  run(${SCRATCH}/cmake/consumer_gl)
-  message(STATUS "consumer_gl: ${output}")
-elseif(GL)
-  message(FATAL_ERROR "srpcore::gl is not in the installed package")
-endif()
+foreach(part gl orbit)
+  string(TOUPPER ${part} built)
+  if(EXISTS ${SCRATCH}/cmake/consumer_${part})
+    run(${SCRATCH}/cmake/consumer_${part})
+    message(STATUS "consumer_${part}: ${output}")
+  elseif(${built})
+    message(FATAL_ERROR "srpcore::${part} is not in the installed package")
+  endif()
+endforeach()
 
 file(GLOB_RECURSE pc ${prefix}/srpcore.pc)
 get_filename_component(pc_directory ${pc} DIRECTORY)
@@ -48,3 +51,13 @@ if(NOT output STREQUAL example_output OR NOT output MATCHES " 180\\.0   0\\.0000
   message(FATAL_ERROR "the example says ${output}through pkg-config, ${example_output}through CMake")
 endif()
 message(STATUS "example:\n${output}")
+foreach(part gl orbit)
+  string(TOUPPER ${part} built)
+  if(${built})
+    run(${PKG_CONFIG} --cflags --libs srp${part})
+    separate_arguments(flags UNIX_COMMAND "${output}")
+    run(${CC} -std=c11 -o ${SCRATCH}/consumer_${part}_pc ${SOURCE}/consumer_${part}.c ${flags})
+    run(${SCRATCH}/consumer_${part}_pc)
+    message(STATUS "consumer_${part}_pc: ${output}")
+  endif()
+endforeach()
