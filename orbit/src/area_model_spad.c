@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * GMAT's own interpolation of SPAD tables (SPADFileReader), for missions that must agree with GMAT:
- * the nodes of a pole keep the differences that a file may give them along azimuth, and the cubic
- * is Lagrange's through 4 x 4 nodes. Departures from GMAT: a pole and the seam are ordinary
- * directions, and the stencil of the cubic moves inwards where it would reach beyond a pole (GMAT
- * gives up there).
+ * GMAT's own interpolation of SPAD tables (SPADFileReader of R2020a), for missions that must agree
+ * with GMAT: nodes are used as the file has them, those of a pole and of the two ends of azimuth
+ * each by itself, and the cubic is Lagrange's through 4 x 4 nodes. Beyond a pole it goes on with
+ * the node opposite. Departures from GMAT: a pole and the seam are ordinary directions, the south
+ * pole is treated as the north pole is (GMAT gives up within a step of it), and where azimuth has
+ * an odd number of steps, and so no node opposite another, the stencil moves inwards.
  */
 #include "error.h"
 #include "mat3.h"
@@ -16,9 +17,9 @@
 #include <stdlib.h>
 
 typedef struct spad {
-    uint32_t columns, rows; /* steps of azimuth and elevation */
-    int points;             /* along each side of the stencil: 2 or 4 */
-    srp_vec3 *nodes;        /* (columns, rows + 1) */
+    long columns, rows; /* steps of azimuth and elevation */
+    int points;         /* along each side of the stencil: 2 or 4 */
+    srp_vec3 *nodes;    /* (columns + 1, rows + 1) */
 } spad;
 
 static void spad_destroy(void *user) {
@@ -44,27 +45,39 @@ static void lagrange(int count, double x, double *weight, double *slope) {
     }
 }
 
+/* Of column -1 .. columns + 1 and row -1 .. rows + 1. */
+static const srp_vec3 *node_at(const spad *s, long column, long row) {
+    column += column < 0 ? s->columns : column > s->columns ? -s->columns : 0;
+    if (row < 0 || row > s->rows) {
+        row = row < 0 ? -row : 2 * s->rows - row;
+        column += column > s->columns / 2 ? -s->columns / 2 : s->columns / 2;
+    }
+    return s->nodes + column * (s->rows + 1) + row;
+}
+
 static int spad_eval(const void *user, srp_vec3 s, srp_vec3 *f, double (*df)[3]) {
     const spad *table = user;
     const double cosine = hypot(s.x, s.y);
     const double az = atan2(s.y, s.x), el = atan2(s.z, cosine);
-    const double per_az = table->columns / (2.0 * SRP_PI), per_el = table->rows / SRP_PI;
+    const double per_az = (double)table->columns / (2.0 * SRP_PI),
+                 per_el = (double)table->rows / SRP_PI;
     const double u = (az + SRP_PI) * per_az, v = (el + 0.5 * SRP_PI) * per_el;
     const int n = table->points, before = n / 2 - 1;
-    const long column = (long)fmin(floor(u), table->columns - 1.0) - before;
-    long row = (long)fmin(floor(v), table->rows - 1.0) - before;
-    row = row < 0 ? 0 : row + n > (long)table->rows + 1 ? (long)table->rows + 1 - n : row;
+    const long column = (long)fmin(floor(u), (double)table->columns - 1.0) - before;
+    long row = (long)fmin(floor(v), (double)table->rows - 1.0) - before;
+    if (table->columns % 2 != 0) {
+        row = row < 0 ? 0 : row + n > table->rows + 1 ? table->rows + 1 - n : row;
+    }
     double wu[4], du[4], wv[4], dv[4];
     lagrange(n, u - (double)column, wu, du);
     lagrange(n, v - (double)row, wv, dv);
     srp_vec3 value = {0, 0, 0}, by_az = {0, 0, 0}, by_el = {0, 0, 0};
     for (int i = 0; i < n; ++i) {
-        const long wrapped = (column + i + (long)table->columns) % (long)table->columns;
-        const srp_vec3 *node = table->nodes + (size_t)wrapped * (table->rows + 1) + row;
         for (int j = 0; j < n; ++j) {
-            value = srp_vec3_add_scaled(value, wu[i] * wv[j], node[j]);
-            by_az = srp_vec3_add_scaled(by_az, du[i] * wv[j] * per_az, node[j]);
-            by_el = srp_vec3_add_scaled(by_el, wu[i] * dv[j] * per_el, node[j]);
+            const srp_vec3 node = *node_at(table, column + i, row + j);
+            value = srp_vec3_add_scaled(value, wu[i] * wv[j], node);
+            by_az = srp_vec3_add_scaled(by_az, du[i] * wv[j] * per_az, node);
+            by_el = srp_vec3_add_scaled(by_el, wu[i] * dv[j] * per_el, node);
         }
     }
     *f = value;
@@ -92,18 +105,18 @@ srp_status srp_area_model_spad(const srp_table *table, bool cubic, srp_area_mode
     }
     spad *s = calloc(1, sizeof *s);
     if (s != NULL) {
-        s->columns = grid.az_count - 1;
-        s->rows = grid.el_count - 1;
+        s->columns = (long)grid.az_count - 1;
+        s->rows = (long)grid.el_count - 1;
         s->points = cubic ? 4 : 2;
-        s->nodes = malloc((size_t)s->columns * (s->rows + 1) * sizeof *s->nodes);
+        s->nodes = malloc(srp_grid_node_count(grid) * sizeof *s->nodes);
     }
     if (s == NULL || s->nodes == NULL) {
         spad_destroy(s);
         return srp_fail(error, SRP_NO_MEMORY, "no memory for an area model");
     }
-    for (uint32_t i = 0; i < s->columns; ++i) {
-        for (uint32_t j = 0; j <= s->rows; ++j) {
-            s->nodes[(size_t)i * (s->rows + 1) + j] = srp_table_node(table, i, j)->f;
+    for (uint32_t i = 0; i < grid.az_count; ++i) {
+        for (uint32_t j = 0; j < grid.el_count; ++j) {
+            s->nodes[(size_t)i * grid.el_count + j] = srp_table_node(table, i, j)->f;
         }
     }
     *out =
