@@ -168,10 +168,62 @@ START_TEST(orbits_agree_with_gmat) {
 }
 END_TEST
 
+/* ---- Steps ------------------------------------------------------------------------------------
+ */
+
+/* Where the mission ends with this tolerance, as "1e-13". */
+static srp_vec3 end_at(const char *name, const char *tolerance) {
+    static char text[4096];
+    char path[600], *at;
+    srp_error error;
+    srp_mission *mission = NULL;
+    srp_mission_summary summary;
+    snprintf(path, sizeof path, "%s/%s.yaml", SRP_MISSIONS_DIR, name);
+    FILE *in = fopen(path, "r");
+    ck_assert_msg(in != NULL, "%s", path);
+    const size_t size = fread(text, 1, sizeof text - 1, in);
+    fclose(in);
+    text[size] = '\0';
+    at = strstr(text, "tolerance: 1e-13");
+    ck_assert_ptr_nonnull(at);
+    memcpy(at + 11, tolerance, 5);
+    at = strstr(text, "  max_step: 120 s");
+    if (at != NULL) {
+        memset(at, ' ', 17);
+    }
+    snprintf(path, sizeof path, "%s/spad/%s.yaml", SRP_SHARED_DATA_DIR, name);
+    assert_ok(srp_mission_parse(text, size, path, NULL, &mission, &error), error);
+    assert_ok(srp_mission_run(mission, NULL, &summary, &error), error);
+    srp_mission_destroy(mission);
+    return summary.r;
+}
+
+/* A bilinear table has a kink at the edge of each cell: what missions have unless they say
+ * otherwise is good for millimetres, ten times as much is not. */
+START_TEST(steps_are_tight_enough_for_kinks) {
+    static const char *const NAMES[] = {"geo_spad_nadir_eclipse", "leo_spad_nadir"};
+    FILE *table = fopen(SRP_SHARED_DATA_DIR "/spad/One-Wing-Sat.spo", "r");
+    if (table == NULL) {
+        printf("skipped: no table in %s\n", SRP_SHARED_DATA_DIR);
+        return;
+    }
+    fclose(table);
+    for (int i = 0; i < 2; ++i) {
+        const srp_vec3 want = end_at(NAMES[i], "1e-15");
+        const double usual = srp_vec3_norm(srp_vec3_sub(end_at(NAMES[i], "1e-13"), want));
+        const double loose = srp_vec3_norm(srp_vec3_sub(end_at(NAMES[i], "1e-12"), want));
+        printf("%s: 1e-12 ends %.1f mm from 1e-15, 1e-13 %.2f mm\n", NAMES[i], 1e3 * loose,
+               1e3 * usual);
+        ck_assert(usual < 3e-3);
+    }
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("orbit_gmat");
     TCase *cases = tcase_create("gmat");
     tcase_add_loop_test(cases, orbits_agree_with_gmat, 0, sizeof CASES / sizeof CASES[0]);
+    tcase_add_test(cases, steps_are_tight_enough_for_kinks);
     suite_add_tcase(suite, cases);
     return run_suite(suite);
 }
