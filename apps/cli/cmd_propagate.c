@@ -8,6 +8,7 @@
 
 #include <srp/orbit/mission.h>
 
+#include <errno.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -213,16 +214,32 @@ static file_names names_of(const propagate_options *options, const srp_mission_i
     return names;
 }
 
-static int check_names(const file_names *names) {
+/* Can `path` be written, and is it none of the files that the mission is read from? */
+static int check_output(const char *path, const srp_mission_info *info) {
+    const char *const inputs[] = {info->file, info->gravity_file, info->radiation_file,
+                                  info->attitude_file};
+    for (size_t i = 0; i < sizeof inputs / sizeof inputs[0]; ++i) {
+        if (inputs[i] != NULL && cli_system_same_file(path, inputs[i])) {
+            return cli_usage_error("%s is input and output at once", path);
+        }
+    }
+    const char *reason;
+    if (!cli_system_can_write(path, &reason)) {
+        fprintf(stderr, "%s: cannot write: %s\n", path, reason);
+        return CLI_MACHINE_FAILED;
+    }
+    return CLI_DONE;
+}
+
+static int check_names(const file_names *names, const srp_mission_info *info) {
     const char *all[] = {names->oem, names->report, names->events};
     for (size_t i = 0; i < FILE_COUNT; ++i) {
-        const char *reason;
-        if (all[i] != NULL && !cli_system_can_write(all[i], &reason)) {
-            fprintf(stderr, "%s: %s\n", all[i], reason);
-            return CLI_MACHINE_FAILED;
+        int status = all[i] != NULL ? check_output(all[i], info) : CLI_DONE;
+        if (status != CLI_DONE) {
+            return status;
         }
         for (size_t k = 0; all[i] != NULL && k < i; ++k) {
-            if (all[k] != NULL && strcmp(all[i], all[k]) == 0) {
+            if (all[k] != NULL && cli_system_same_name(all[i], all[k])) {
                 return cli_usage_error("'%s' is to be written twice", all[i]);
             }
         }
@@ -296,7 +313,7 @@ static int propagate_one(const propagate_options *options, const srp_mission *mi
     const file_names names = names_of(options, info);
     propagate_job job = {.mission = mission, .kept = kept};
     srp_mission_summary summary;
-    int status = check_names(&names);
+    int status = check_names(&names, info);
     if (status == CLI_DONE) {
         status = open_files(&job, &names);
     }
@@ -323,11 +340,16 @@ static void print_difference(FILE *out, double t, const track *a, const track *b
             srp_vec3_norm(d));
 }
 
+static int cannot_write(const char *path) {
+    fprintf(stderr, "%s: cannot write: %s\n", path, strerror(errno));
+    return CLI_MACHINE_FAILED;
+}
+
 static int write_differences(const propagate_options *options, const track *a, const track *b) {
+    errno = 0;
     FILE *out = options->output != NULL ? fopen(options->output, "w") : stdout;
     if (out == NULL) {
-        fprintf(stderr, "%s: cannot write the file\n", options->output);
-        return CLI_MACHINE_FAILED;
+        return cannot_write(options->output);
     }
     fprintf(out, "elapsed_s,radial_m,along_m,cross_m,distance_m\n");
     for (size_t i = 0; i < a->count; ++i) {
@@ -335,21 +357,44 @@ static int write_differences(const propagate_options *options, const track *a, c
     }
     const bool bad = ferror(out) != 0;
     if (options->output != NULL && (fclose(out) != 0 || bad)) {
-        fprintf(stderr, "%s: cannot write the file\n", options->output);
-        return CLI_MACHINE_FAILED;
+        return cannot_write(options->output);
     }
     return CLI_DONE;
 }
 
+/* Before the work: the file of the differences. */
+static int check_differences(const propagate_options *options, const srp_mission *a,
+                             const srp_mission *b) {
+    if (options->output == NULL) {
+        return CLI_DONE;
+    }
+    const file_names names = names_of(options, srp_mission_get_info(a));
+    const char *all[] = {names.oem, names.report, names.events};
+    for (size_t i = 0; i < FILE_COUNT; ++i) {
+        if (all[i] != NULL && cli_system_same_name(options->output, all[i])) {
+            return cli_usage_error("'%s' is to be written twice", all[i]);
+        }
+    }
+    int status = check_output(options->output, srp_mission_get_info(a));
+    return status == CLI_DONE ? check_output(options->output, srp_mission_get_info(b)) : status;
+}
+
+/* What both must have alike; the first that they have not. */
 static int check_pair(const srp_mission *a, const srp_mission *b) {
     const srp_mission_info *one = srp_mission_get_info(a), *other = srp_mission_get_info(b);
-    if (srp_epoch_difference(one->epoch, other->epoch) != 0.0 || one->duration != other->duration ||
-        one->step != other->step || one->central != other->central) {
-        fprintf(stderr,
-                "%s: its epoch, duration, output step or central body differ from those of %s, "
-                "expected the same\n",
-                other->file, one->file);
-        return CLI_BAD_INPUT;
+    const struct {
+        const char *name;
+        bool same;
+    } all[] = {{"epoch", srp_epoch_difference(one->epoch, other->epoch) == 0.0},
+               {"duration", one->duration == other->duration},
+               {"output.step", one->step == other->step},
+               {"central_body", one->central == other->central}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
+        if (!all[i].same) {
+            fprintf(stderr, "%s: its %s differs from that of %s, expected the same\n", other->file,
+                    all[i].name, one->file);
+            return CLI_BAD_INPUT;
+        }
     }
     return CLI_DONE;
 }
@@ -361,6 +406,9 @@ static int propagate_both(const propagate_options *options, const srp_mission *a
     propagate_job job = {.mission = b, .kept = &other};
     srp_mission_summary summary;
     int status = check_pair(a, b);
+    if (status == CLI_DONE) {
+        status = check_differences(options, a, b);
+    }
     if (status == CLI_DONE) {
         status = propagate_one(options, a, &one);
     }

@@ -308,10 +308,14 @@ static srp_status read_columns(const mission_source *source, srp_mission *missio
     const mission_output *output = mission_source_file(source)->output;
     const unsigned count = output != NULL ? output->column_count : 0;
     mission->info.columns = mission->columns;
-    if (output == NULL || output->columns == NULL) {
+    if (!mission_has(source, "output.columns")) {
         memcpy(mission->columns, USUAL, sizeof USUAL);
         mission->info.column_count = sizeof USUAL / sizeof USUAL[0];
         return SRP_OK;
+    }
+    if (count == 0) {
+        return mission_fail(source, error, SRP_BAD_DATA, "output.columns",
+                            "expected one column or more");
     }
     for (unsigned i = 0; i < count; ++i) {
         char path[64];
@@ -554,6 +558,15 @@ static void sum_up(const runner *run, srp_mission_summary *sum) {
     sum->in_penumbra = fmax(0.0, sum->in_penumbra - sum->in_umbra);
 }
 
+/* What happens under way is told of the mission, unless it has a file of its own. */
+static void name_file(const srp_mission *mission, srp_status status, srp_error *error) {
+    if (status == SRP_BAD_DATA && error != NULL && error->file[0] == '\0') {
+        const srp_error what = *error;
+        srp_status same = srp_fail_at(error, status, mission->info.file, 0, 0, "%s", what.message);
+        (void)same;
+    }
+}
+
 srp_status srp_mission_run(const srp_mission *mission, const srp_mission_watch *watch,
                            srp_mission_summary *out, srp_error *error) {
     runner run = {.mission = mission, .watch = watch, .since = {NAN, NAN}};
@@ -571,6 +584,7 @@ srp_status srp_mission_run(const srp_mission *mission, const srp_mission_watch *
         status = error != NULL ? error->status : SRP_BAD_DATA;
     }
     share_nodes(mission); /* however the run has ended */
+    name_file(mission, status, error);
     srp_propagator_destroy(run.propagator);
     return status;
 }

@@ -86,19 +86,19 @@ static srp_status pointing_attitude(const mission_source *source, const mission_
     return mission_at_entry(source, "spacecraft.attitude", status, &why, error);
 }
 
-static srp_status file_attitude(const mission_source *source, const srp_mission *mission,
-                                const mission_attitude *in, srp_attitude *out, srp_error *error) {
+static srp_status file_attitude(const mission_site *site, const mission_attitude *in,
+                                srp_attitude *out, srp_error *error) {
+    const mission_source *source = site->source;
+    srp_mission_info *info = &site->mission->info;
+    srp_error why;
     srp_status status = mission_need(source, "spacecraft.attitude", in->file, "file", error);
+    if (status == SRP_OK) {
+        status = mission_path(site, MISSION_TEXT_ATTITUDE, in->file, &info->attitude_file, error);
+    }
     if (status != SRP_OK) {
         return status;
     }
-    srp_error why;
-    char *path = mission_beside(mission_source_name(source), in->file);
-    if (path == NULL) {
-        return srp_fail(error, SRP_NO_MEMORY, "no memory for a file name");
-    }
-    status = srp_attitude_aem_read(path, mission->info.epoch, out, &why);
-    free(path);
+    status = srp_attitude_aem_read(info->attitude_file, info->epoch, out, &why);
     return mission_at_file(source, "spacecraft.attitude.file", status, &why, error);
 }
 
@@ -139,7 +139,7 @@ srp_status mission_build_attitude(const mission_site *site, srp_attitude *out, s
     }
     if (strcmp(in->mode, "aem") == 0) {
         warn_of_unused(site, in, false, false);
-        return file_attitude(source, site->mission, in, out, error);
+        return file_attitude(site, in, out, error);
     }
     return mission_fail(
         source, error, SRP_BAD_DATA, "spacecraft.attitude.mode",

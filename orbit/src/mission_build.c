@@ -39,6 +39,17 @@ srp_status mission_need(const mission_source *source, const char *path, const ch
                : mission_fail(source, error, SRP_BAD_FORMAT, path, "'%s' is missing here", key);
 }
 
+srp_status mission_path(const mission_site *site, int slot, const char *file, const char **out,
+                        srp_error *error) {
+    char *path = mission_beside(mission_source_name(site->source), file);
+    if (path == NULL) {
+        return srp_fail(error, SRP_NO_MEMORY, "no memory for a file name");
+    }
+    site->mission->texts[slot] = path;
+    *out = path;
+    return SRP_OK;
+}
+
 void mission_warn_unused(const mission_site *site, const char *group, const char *what,
                          size_t count, const mission_key *keys) {
     for (size_t i = 0; i < count; ++i) {
@@ -57,7 +68,7 @@ static srp_status shadow_of(const mission_source *source, const mission_radiatio
     *out = (srp_shadow){.sun_radius = mission->radius[SRP_SUN]};
     srp_status status = mission_positive(source, "forces.radiation.sun_radius", in->sun_radius,
                                          MISSION_LENGTH, &out->sun_radius, error);
-    if (in->shadow == NULL && mission->info.central != SRP_SUN) {
+    if (!mission_has(source, "forces.radiation.shadow") && mission->info.central != SRP_SUN) {
         out->count = 1;
         out->body[0] = mission->info.central;
         out->radius[0] = mission->radius[mission->info.central];
@@ -149,8 +160,10 @@ static srp_status add_radiation(const mission_site *site, srp_error *error) {
 
 /* ---- Gravity --------------------------------------------------------------------------------- */
 
-static srp_status read_field(const mission_source *source, const mission_gravity *in,
-                             const srp_log *log, srp_mission *mission, srp_error *error) {
+static srp_status read_field(const mission_site *site, const mission_gravity *in,
+                             srp_error *error) {
+    const mission_source *source = site->source;
+    srp_mission *mission = site->mission;
     unsigned degree = 0;
     if (mission->info.central != SRP_EARTH) {
         return mission_fail(source, error, SRP_UNSUPPORTED, "forces.gravity",
@@ -165,24 +178,24 @@ static srp_status read_field(const mission_source *source, const mission_gravity
     if (status != SRP_OK) {
         return status;
     }
-    char *path = mission_beside(mission_source_name(source), in->file);
-    if (path == NULL) {
-        return srp_fail(error, SRP_NO_MEMORY, "no memory for a file name");
-    }
     srp_error why;
-    status = srp_gravity_read(path, degree, order, log, &mission->gravity, &why);
-    free(path);
+    const char **path = &mission->info.gravity_file;
+    status = mission_path(site, MISSION_TEXT_GRAVITY, in->file, path, error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    status = srp_gravity_read(*path, degree, order, site->context->log, &mission->gravity, &why);
     return mission_at_file(source, "forces.gravity.file", status, &why, error);
 }
 
 /* The central body: its field, or a point. */
-static srp_status add_central(const mission_source *source, const srp_log *log,
-                              srp_mission *mission, srp_error *error) {
-    const mission_forces *forces = mission_source_file(source)->forces;
+static srp_status add_central(const mission_site *site, srp_error *error) {
+    const mission_forces *forces = mission_source_file(site->source)->forces;
+    srp_mission *mission = site->mission;
     srp_force force;
     srp_status status;
     if (forces != NULL && forces->gravity != NULL) {
-        status = read_field(source, forces->gravity, log, mission, error);
+        status = read_field(site, forces->gravity, error);
         if (status != SRP_OK) {
             return status;
         }
@@ -270,7 +283,7 @@ srp_status mission_build_forces(const mission_site *site, srp_error *error) {
     const mission_forces *forces = mission_source_file(site->source)->forces;
     srp_status status = make_sky(site->source, site->mission, error);
     if (status == SRP_OK) {
-        status = add_central(site->source, site->context->log, site->mission, error);
+        status = add_central(site, error);
     }
     if (status == SRP_OK) {
         status = add_point_masses(site->source, site->mission, error);

@@ -94,6 +94,8 @@ srp_status mission_source_open(const char *text, size_t size, const char *name,
 void mission_source_close(mission_source *source);
 const mission_file *mission_source_file(const mission_source *source);
 const char *mission_source_name(const mission_source *source);
+/* Whether there is an entry of this path, be it an empty list. */
+bool mission_has(const mission_source *source, const char *path);
 /* Fails at the entry of a path such as "forces.radiation.shadow.1": the nearest that is there. */
 srp_status mission_fail(const mission_source *source, srp_error *error, srp_status status,
                         const char *path, const char *format, ...) SRP_PRINTF(5, 6);
@@ -130,7 +132,7 @@ srp_status mission_bits(const mission_source *source, const char *path, const ch
                         uint64_t *out, srp_error *error);
 /* Like strdup. */
 char *mission_copy(const char *text);
-/* `file` as seen from the directory of the mission; freed by free(). */
+/* `file` as seen from the directory of `mission`; freed by free(). */
 char *mission_beside(const char *mission, const char *file);
 
 /* ---- The mission ----------------------------------------------------------------------------- */
@@ -138,9 +140,18 @@ char *mission_beside(const char *mission, const char *file);
 /* Why a model that computes as it goes could not; the first failure is kept. */
 typedef struct mission_failure mission_failure;
 
+/* Texts of the mission, by who keeps them. */
+enum {
+    MISSION_TEXT_FIRST = 7, /* before it: those of mission.c */
+    MISSION_TEXT_GRAVITY = MISSION_TEXT_FIRST,
+    MISSION_TEXT_RADIATION,
+    MISSION_TEXT_ATTITUDE,
+    MISSION_TEXT_COUNT
+};
+
 struct srp_mission {
     srp_mission_info info;
-    char *texts[8]; /* what info points to */
+    char *texts[MISSION_TEXT_COUNT]; /* what info points to */
     srp_column columns[SRP_COLUMN_COUNT];
     double mu[SRP_CELESTIAL_COUNT], radius[SRP_CELESTIAL_COUNT];
     srp_vec3 r, v;
@@ -177,6 +188,10 @@ srp_status mission_at_file(const mission_source *source, const char *path, srp_s
 /* `text` must be there. */
 srp_status mission_need(const mission_source *source, const char *path, const char *text,
                         const char *key, srp_error *error);
+
+/* `file` as seen from the directory of the mission, kept as text `slot` and in *out. */
+srp_status mission_path(const mission_site *site, int slot, const char *file, const char **out,
+                        srp_error *error);
 
 /* mission_attitude.c */
 srp_status mission_build_attitude(const mission_site *site, srp_attitude *out, srp_error *error);

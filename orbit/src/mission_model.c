@@ -342,25 +342,20 @@ srp_status mission_build_model(const mission_site *site, srp_area_model *out, sr
     if (model == CANNONBALL) {
         return cannonball(source, in, out, error);
     }
+    const char **path = &site->mission->info.radiation_file;
     srp_status status = mission_need(source, "forces.radiation", in->file, "file", error);
+    if (status == SRP_OK) {
+        status = mission_path(site, MISSION_TEXT_RADIATION, in->file, path, error);
+    }
     if (status != SRP_OK) {
         return status;
     }
-    char *path = mission_beside(mission_source_name(source), in->file);
-    if (path == NULL) {
-        return srp_fail(error, SRP_NO_MEMORY, "no memory for a file name");
-    }
     switch (model) {
     case TABLE:
-        status = from_table(source, in, path, out, error);
-        break;
+        return from_table(source, in, *path, out, error);
     case ON_DEMAND:
-        status = on_demand(site, in, path, out, error);
-        break;
+        return on_demand(site, in, *path, out, error);
     default:
-        status = from_scene(site, path, model == PLATES, out, error);
-        break;
+        return from_scene(site, *path, model == PLATES, out, error);
     }
-    free(path);
-    return status;
 }

@@ -212,7 +212,8 @@ static yaml_node_t *child(yaml_document_t *document, yaml_node_t *node, const ch
     return NULL;
 }
 
-static yaml_mark_t place_of(const mission_source *source, const char *path) {
+/* The node of a path, or the nearest around it that is there; *rest is what was not found. */
+static yaml_node_t *follow(const mission_source *source, const char *path, const char **rest) {
     yaml_document_t *document = (yaml_document_t *)&source->document;
     yaml_node_t *node = yaml_document_get_root_node(document);
     while (*path != '\0') {
@@ -224,7 +225,19 @@ static yaml_mark_t place_of(const mission_source *source, const char *path) {
         node = next;
         path += size + (path[size] == '.');
     }
-    return node->start_mark;
+    *rest = path;
+    return node;
+}
+
+static yaml_mark_t place_of(const mission_source *source, const char *path) {
+    const char *rest;
+    return follow(source, path, &rest)->start_mark;
+}
+
+bool mission_has(const mission_source *source, const char *path) {
+    const char *rest;
+    follow(source, path, &rest);
+    return *rest == '\0';
 }
 
 srp_status mission_fail(const mission_source *source, srp_error *error, srp_status status,
@@ -255,13 +268,17 @@ void mission_warn(const mission_source *source, const srp_log *log, const char *
 /* Mappings that a search goes through: aliases can make a short text endless. */
 enum { VISITS_MAX = 10000 };
 
+/* Of a mapping with more keys than this many, some are unknown, and libcyaml finds them. */
+enum { KEYS_MAX = 1000 };
+
 /* Keys given twice, which libcyaml lets pass; NULL: none. */
 static yaml_node_t *doubled_key(yaml_document_t *document, yaml_node_t *node, int *left) {
     if (node->type != YAML_MAPPING_NODE || --*left < 0) {
         return NULL;
     }
-    for (yaml_node_pair_t *pair = node->data.mapping.pairs.start;
-         pair < node->data.mapping.pairs.top; ++pair) {
+    yaml_node_pair_t *const start = node->data.mapping.pairs.start;
+    for (yaml_node_pair_t *pair = start;
+         pair < node->data.mapping.pairs.top && pair - start < KEYS_MAX; ++pair) {
         yaml_node_t *key = yaml_document_get_node(document, pair->key);
         yaml_node_t *value = yaml_document_get_node(document, pair->value);
         if (key->type == YAML_SCALAR_NODE &&
@@ -297,6 +314,23 @@ static yaml_node_t *find_key(yaml_document_t *document, yaml_node_t *node, const
         }
     }
     return NULL;
+}
+
+/* libyaml takes a time that grows with the square of the depth of brackets: 40 s for 100,000. */
+enum { BRACKETS_MAX = 10000 };
+
+static srp_status check_brackets(const mission_source *source, const char *text, size_t size,
+                                 srp_error *error) {
+    size_t brackets = 0, line = 1;
+    for (size_t i = 0; i < size; ++i) {
+        line += text[i] == '\n';
+        brackets += text[i] == '[' || text[i] == '{';
+        if (brackets > BRACKETS_MAX) {
+            return srp_fail_at(error, SRP_BAD_FORMAT, source->name, line, 0,
+                               "more than %d brackets: expected a mission", BRACKETS_MAX);
+        }
+    }
+    return SRP_OK;
 }
 
 static srp_status load_document(mission_source *source, const char *text, size_t size,
@@ -341,7 +375,7 @@ static void listen(cyaml_log_t level, void *user, const char *format, va_list ar
     }
     if (place != NULL && source->line == 0) {
         sscanf(place, "(line: %u, column: %u)", &source->line, &source->column);
-    } else if (source->words[0] == '\0' && place == NULL) {
+    } else if (source->words[0] == '\0' && place == NULL && strstr(line, "Backtrace") == NULL) {
         const char *words = strncmp(line, "Load: ", 6) == 0 ? line + 6 : line;
         snprintf(source->words, sizeof source->words, "%.*s", (int)strcspn(words, "\n"), words);
     }
@@ -358,6 +392,30 @@ static srp_status missing_key(const mission_source *source, const char *key, srp
     const yaml_mark_t mark = place_of(source, path);
     return srp_fail_at(error, SRP_BAD_FORMAT, source->name, mark.line + 1, mark.column + 1,
                        "%s%s'%s' is missing here", path, path[0] != '\0' ? ": " : "", key);
+}
+
+/* libcyaml's words for an entry of the wrong kind, and ours. */
+static const struct {
+    const char *words, *ours;
+} KINDS[] = {
+    {"Expecting SEQUENCE, got", "expected a list, as in [sun, moon]"},
+    {"Expecting MAPPING, got", "expected keys with values, one below the other"},
+    {"Expecting STRING, got", "expected one value"},
+    {"STRING length <", "expected a value, found none"},
+    {"STRING length >", "the text is too long for a value"},
+    {"Excessive entries", "too many entries"},
+};
+
+/* The entry at fault is the innermost of the backtrace. */
+static srp_status wrong_kind(const mission_source *source, size_t line, size_t column,
+                             const char *ours, srp_error *error) {
+    char path[600] = "";
+    for (size_t i = source->depth; i > 0; --i) {
+        strcat(path, source->fields[i - 1]);
+        strcat(path, i > 1 ? "." : "");
+    }
+    return srp_fail_at(error, SRP_BAD_FORMAT, source->name, line, column, "%s%s%s", path,
+                       path[0] != '\0' ? ": " : "", ours);
 }
 
 static srp_status schema_failure(mission_source *source, cyaml_err_t code, srp_error *error) {
@@ -382,7 +440,13 @@ static srp_status schema_failure(mission_source *source, cyaml_err_t code, srp_e
     if (strncmp(source->words, MISSING, sizeof MISSING - 1) == 0) {
         return missing_key(source, source->words + sizeof MISSING - 1, error);
     }
-    return srp_fail_at(error, SRP_BAD_FORMAT, source->name, line, column, "%s (%s)",
+    for (size_t i = 0; i < sizeof KINDS / sizeof KINDS[0]; ++i) {
+        if (strncmp(source->words, KINDS[i].words, strlen(KINDS[i].words)) == 0) {
+            return wrong_kind(source, line, column, KINDS[i].ours, error);
+        }
+    }
+    return srp_fail_at(error, SRP_BAD_FORMAT, source->name, line, column,
+                       "%s (%s): expected keys that are words, with values",
                        source->words[0] != '\0' ? source->words : "not as a mission is written",
                        cyaml_strerror(code));
 }
@@ -406,7 +470,10 @@ srp_status mission_source_open(const char *text, size_t size, const char *name,
         return srp_fail(error, SRP_NO_MEMORY, "no memory for a mission file");
     }
     source->name = name;
-    srp_status status = load_document(source, text, size, error);
+    srp_status status = check_brackets(source, text, size, error);
+    if (status == SRP_OK) {
+        status = load_document(source, text, size, error);
+    }
     if (status == SRP_OK) {
         int left = VISITS_MAX;
         yaml_node_t *twice =

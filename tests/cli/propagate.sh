@@ -87,7 +87,13 @@ awk -F, 'NR == 26 && ($5 < 1 || $5 > 1000) { exit 1 } END { exit NR != 26 }' dif
     fail "the difference after a day is not some metres"
 sed "s/step: 1 h/step: 2 h/" a.yaml > c.yaml
 expect 1 propagate a.yaml --versus c.yaml
-says "c.yaml: its epoch, duration, output step"
+says "c.yaml: its output.step differs from that of a.yaml"
+sed "s/duration: 1 d/duration: 25 h/" a.yaml > c.yaml
+expect 1 propagate a.yaml --versus c.yaml
+says "c.yaml: its duration differs"
+sed "s/^epoch: 2024/epoch: 2023/" a.yaml > c.yaml
+expect 1 propagate a.yaml --versus c.yaml
+says "c.yaml: its epoch differs"
 holds 1.oem 2.oem a.yaml b.yaml c.yaml difference.csv
 
 # ---- mistakes ----
@@ -98,6 +104,62 @@ expect 2 propagate a.yaml -o x.csv
 says "--versus"
 expect 2 propagate a.yaml --oem x --report x
 says "twice"
+expect 2 propagate a.yaml --oem x --report ./x
+says "twice"
+expect 2 propagate a.yaml --versus b.yaml --report x -o x
+says "twice"
+# Never over a file that is read.
+cp a.yaml kept.yaml
+expect 2 propagate a.yaml --report a.yaml
+says "a.yaml is input and output at once"
+expect 2 propagate a.yaml --versus b.yaml -o ./b.yaml
+says "input and output"
+sed -e "s#file: \.\./#file: $MODELS/#; s#file: egm96.*#file: field.gfc#" "$MISSIONS/leo.yaml" > leo.yaml
+cp "$MISSIONS/egm96-4.gfc" field.gfc
+expect 2 propagate leo.yaml --oem field.gfc
+check "an input has gone" cmp field.gfc "$MISSIONS/egm96-4.gfc"
+check "the mission has gone" cmp a.yaml kept.yaml
+# Disks that are full, places that cannot be written: before the work, and with a reason.
+for option in --oem --report --events; do
+    expect 3 propagate a.yaml $option /dev/full
+    says "/dev/full: cannot write: No space left on device"
+    expect 3 propagate a.yaml $option no-such-directory/x
+    says "no-such-directory/x: cannot write: No such file or directory"
+done
+expect 3 propagate a.yaml --versus b.yaml -o /dev/full
+says "No space left"
+expect 3 propagate a.yaml --versus b.yaml -o no-such-directory/x
+says "No such file"
+expect 3 propagate a.yaml --report .
+says "is a directory"
+# Other things than a mission.
+: > empty.yaml
+expect 1 propagate empty.yaml
+says "empty.yaml:1:1: expected a mapping"
+expect 1 propagate .
+says ".: is a directory, expected a file"
+head -c 100000 /dev/urandom > noise.yaml
+expect 1 propagate noise.yaml
+says "noise.yaml:"
+for i in $(seq 60000); do echo "key$i: 1"; done > keys.yaml
+expect 1 propagate keys.yaml
+says "keys.yaml:1:1: 'key1' is no key"
+{ printf 'title: '; printf '[%.0s' $(seq 20000); } > deep.yaml
+expect 1 propagate deep.yaml
+says "deep.yaml:1: more than 10000 brackets"
+# Stopped in the middle: nothing is left behind.
+sed "s/^duration: .*/duration: 3000 d/; s/^output:/integrator: {max_step: 1 min}\noutput:/" a.yaml > long.yaml
+"$SRP" propagate long.yaml --report long.csv --oem long.oem > ../log/out 2> ../log/err &
+for _ in $(seq 300); do # until it has begun to write
+    [ -z "$(find . -name '*long.oem*')" ] || break
+    sleep 0.1
+done
+kill -TERM $!
+wait $! 2> /dev/null
+check "it went on" [ $? -eq 143 ]
+says "interrupted"
+check "it left a file" [ -z "$(find . -name '*long.csv*' -o -name '*long.oem*')" ]
+rm -f x leo.yaml field.gfc kept.yaml empty.yaml noise.yaml keys.yaml deep.yaml long.yaml
 expect 1 propagate no-such.yaml
 says "no-such.yaml"
 expect 1 propagate a.yaml --versus no-such.yaml
@@ -109,6 +171,7 @@ expect 3 propagate a.yaml --oem no-such-directory/x.oem
 sed "s/semi_major_axis: .*/semi_major_axis: 6800 km/; s/eccentricity: .*/eccentricity: 0.07/" a.yaml > falls.yaml
 sed -i "s/true_anomaly: .*/true_anomaly: 180 deg/" falls.yaml
 expect 1 propagate falls.yaml --oem falls.oem
+says "falls.yaml: at t = "
 says "surface"
 check "an orbit that failed has left a file" [ ! -e falls.oem ]
 expect 2 propagate a.yaml --what

@@ -80,7 +80,9 @@ typedef struct mistake {
 
 static const mistake MISTAKES[] = {
     {1, "titel: x", 1, SRP_BAD_FORMAT, "titel"},
-    {1, "title: [a, b]", 1, SRP_BAD_FORMAT, ""},
+    {1, "title: [a, b]", 1, SRP_BAD_FORMAT, "title: expected one value"},
+    {13, "  mass:", 13, SRP_BAD_FORMAT, "spacecraft.mass: expected a value, found none"},
+    {8, "  position: [1 km, 2 km, 3 km]", 8, SRP_BAD_FORMAT, "state.position: expected one value"},
     {1, "title: {a", 0, SRP_BAD_FORMAT, "not YAML"},
     {1, "title: \"x", 0, SRP_BAD_FORMAT, "not YAML"},
     {1, "epoch: 2024-03-20T00:00:00 UTC", 2, SRP_BAD_FORMAT, "twice"},
@@ -111,7 +113,7 @@ static const mistake MISTAKES[] = {
     {8, "  posiiton: 36607 0 0 km", 8, SRP_BAD_FORMAT, "posiiton"},
     {9, "  velocity: 5.5 4.6694515 0.0123456 km/s", 8, SRP_BAD_DATA, "hyperbolic: true"},
     {9, "  velocity: 1.5 2.6 0.01 m", 9, SRP_BAD_FORMAT, "m/s, km/s"},
-    {11, "  name: ", 11, SRP_BAD_FORMAT, ""},
+    {11, "  name: ", 11, SRP_BAD_FORMAT, "spacecraft.name: expected a value, found none"},
     {1, "title: \"two\\nlines\"", 1, SRP_BAD_DATA, "printable"},
     {11, "  name: \"S\\tX\"", 11, SRP_BAD_DATA, "printable"},
     {12, "  id: \u00e9", 12, SRP_BAD_DATA, "printable"},
@@ -133,7 +135,8 @@ static const mistake MISTAKES[] = {
     {20, "  point_masses: [sun, earth]", 20, SRP_BAD_DATA, "earth"},
     {20, "  point_masses: [sun, sun]", 20, SRP_BAD_DATA, "sun"},
     {20, "  point_masses: [pluto]", 20, SRP_BAD_DATA, "pluto"},
-    {20, "  point_masses: sun", 20, SRP_BAD_FORMAT, ""},
+    {20, "  point_masses: sun", 20, SRP_BAD_FORMAT, "forces.point_masses: expected a list"},
+    {20, "  point_masses: ~", 20, SRP_BAD_FORMAT, "forces.point_masses: expected a list"},
     {20, "  drag: 1", 20, SRP_BAD_FORMAT, "drag"},
     {22, "", 0, SRP_BAD_FORMAT, "model"},
     {22, "    model: sail", 22, SRP_BAD_DATA, "cannonball, plates"},
@@ -164,6 +167,9 @@ static const mistake MISTAKES[] = {
     {38, "  max_step: -1 s", 38, SRP_BAD_DATA, "above 0"},
     {40, "  step: 0 s", 40, SRP_BAD_DATA, "above 0"},
     {40, "  step: 1e-9 s", 40, SRP_BAD_DATA, "rows"},
+    {41, "  columns: []", 41, SRP_BAD_DATA, "one column or more"},
+    {41, "  columns: 5", 41, SRP_BAD_FORMAT, "output.columns: expected a list"},
+    {41, "  columns: [[a]]", 41, SRP_BAD_FORMAT, "output.columns: expected one value"},
     {41, "  columns: [epoch, colour]", 41, SRP_BAD_DATA, "colour"},
     {41, "  columns: [epoch, epoch]", 41, SRP_BAD_DATA, "each once"},
 };
@@ -200,6 +206,7 @@ START_TEST(other_mistakes_are_told) {
                                  "{}\n",
                                  "a: &x 1\nb: *x\n",
                                  "\xff\xfe\x00",
+                                 "? [a]\n: b\n",
                                  "epoch: 2024-03-20 UTC\n"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
         const srp_status status = parse(texts[i], &mission, &error);
@@ -437,6 +444,31 @@ START_TEST(the_oem_rules_can_fail) {
 }
 END_TEST
 
+/* An empty list is a list: no body stands before the Sun. */
+START_TEST(without_shadows_there_are_none) {
+    static const struct {
+        const char *line;
+        size_t umbras;
+    } all[] = {
+        {"    shadow: []", 0}, {"", 1}, {"    shadow: [earth]", 1}, {"    shadow: [moon]", 0}};
+    static char text[8000];
+    gsl_set_error_handler_off();
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
+        srp_mission *mission = NULL;
+        srp_mission_summary summary;
+        srp_error error;
+        compose(text, 28, all[i].line);
+        char *at = strstr(text, "duration: 6 h");
+        memcpy(at, "duration: 1 d", 13);
+        assert_ok(parse(text, &mission, &error), error);
+        assert_ok(srp_mission_run(mission, NULL, &summary, &error), error);
+        ck_assert_msg(summary.umbras == all[i].umbras, "'%s': %zu umbras", all[i].line,
+                      summary.umbras);
+        srp_mission_destroy(mission);
+    }
+}
+END_TEST
+
 START_TEST(falling_to_the_ground_is_told) {
     const char *text =
         "epoch: 2024-03-20 TT\nduration: 1 d\nspacecraft: {mass: 9 kg}\nstate: {position: "
@@ -447,6 +479,7 @@ START_TEST(falling_to_the_ground_is_told) {
     assert_ok(parse(text, &mission, &error), error);
     ck_assert_int_eq(srp_mission_run(mission, NULL, &summary, &error), SRP_BAD_DATA);
     ck_assert_msg(strstr(error.message, "surface") != NULL, "%s", error.message);
+    ck_assert_msg(strstr(error.file, "test.yaml") != NULL, "'%s'", error.file);
     ck_assert(summary.impulse == -1.0);
     srp_mission_destroy(mission);
     srp_mission_destroy(NULL);
@@ -498,6 +531,7 @@ int main(void) {
     tcase_add_test(all, tables_that_pull_are_refused);
     tcase_add_test(all, a_mission_runs_and_writes);
     tcase_add_test(all, the_oem_rules_can_fail);
+    tcase_add_test(all, without_shadows_there_are_none);
     tcase_add_test(all, falling_to_the_ground_is_told);
     tcase_add_test(all, a_run_can_be_cancelled);
     tcase_add_test(all, epochs_beyond_the_leap_seconds_are_warned_of);

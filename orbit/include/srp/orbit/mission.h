@@ -79,6 +79,8 @@ SRP_API bool srp_column_find(const char *name, srp_column *out);
 typedef struct srp_mission_info {
     const char *file, *title, *object_name, *object_id;
     const char *oem, *report, *events; /* files to write, NULL: none */
+    /* Files that were read, NULL: none. */
+    const char *gravity_file, *radiation_file, *attitude_file;
     srp_epoch epoch;
     srp_time_scale scale;
     srp_celestial central;
