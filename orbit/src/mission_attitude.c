@@ -86,6 +86,26 @@ static srp_status pointing_attitude(const mission_source *source, const mission_
     return mission_at_entry(source, "spacecraft.attitude", status, &why, error);
 }
 
+/* A file that ends before the mission does is told before the work. */
+static srp_status check_span(const mission_site *site, const srp_attitude *attitude,
+                             srp_error *error) {
+    const srp_mission_info *info = &site->mission->info;
+    const double ends[] = {0.0, info->duration};
+    for (int i = 0; i < 2; ++i) {
+        const srp_force_state state = {.t = ends[i]};
+        double matrix[3][3];
+        if (attitude->eval(attitude->user, &state, matrix) != 0) {
+            char date[SRP_EPOCH_TEXT_SIZE];
+            srp_epoch_format(srp_epoch_add(info->epoch, ends[i]), info->scale, 3, date);
+            return mission_fail(site->source, error, SRP_BAD_DATA, "spacecraft.attitude.file",
+                                "%s has no attitude for %s %s, the %s of the mission",
+                                info->attitude_file, date, srp_time_scale_name(info->scale),
+                                i == 0 ? "begin" : "end");
+        }
+    }
+    return SRP_OK;
+}
+
 static srp_status file_attitude(const mission_site *site, const mission_attitude *in,
                                 srp_attitude *out, srp_error *error) {
     const mission_source *source = site->source;
@@ -99,7 +119,14 @@ static srp_status file_attitude(const mission_site *site, const mission_attitude
         return status;
     }
     status = srp_attitude_aem_read(info->attitude_file, info->epoch, out, &why);
-    return mission_at_file(source, "spacecraft.attitude.file", status, &why, error);
+    status = mission_at_file(source, "spacecraft.attitude.file", status, &why, error);
+    if (status == SRP_OK) {
+        status = check_span(site, out, error);
+        if (status != SRP_OK) {
+            srp_attitude_release(out);
+        }
+    }
+    return status;
 }
 
 /* Entries that each kind of mode uses. */

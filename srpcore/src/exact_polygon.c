@@ -246,7 +246,7 @@ static srp_status visible_in_turn(srp_visible_scratch *scratch, const srp_polygo
                                   srp_moments *out) {
     scratch->piece_count = 0;
     srp_status status = push_small_pieces(scratch, polygon);
-    const srp_box2 *list = scratch->lists.item + first;
+    const srp_box2 *list = count > 0 ? scratch->lists.item + first : NULL;
     for (size_t k = 0; k < count && status == SRP_OK && scratch->piece_count > 0; ++k) {
         status = take_away(scratch, &occluders[list[k].id], &list[k]);
     }

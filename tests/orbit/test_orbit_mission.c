@@ -224,6 +224,36 @@ START_TEST(other_mistakes_are_told) {
 }
 END_TEST
 
+START_TEST(attitude_files_must_cover_the_mission) {
+    static const struct {
+        const char *epoch;
+        srp_status status;
+        const char *words;
+    } all[] = {{"2024-03-20T00:00:00 TAI", SRP_OK, ""},
+               {"2024-03-19T23:59:59 TAI", SRP_BAD_DATA, "the begin of the mission"},
+               {"2024-03-20T00:01:00 TAI", SRP_BAD_DATA,
+                "no attitude for 2024-03-20T00:02:40.000 TAI, the end"}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
+        char text[1000];
+        srp_mission *mission = NULL;
+        srp_error error;
+        snprintf(text, sizeof text,
+                 "epoch: %s\nduration: 100 s\nspacecraft:\n  mass: 9 kg\n  attitude:\n    mode: "
+                 "aem\n    file: two.aem\nstate: {position: 7000 0 0 km, velocity: 0 7.5 0 km/s}\n"
+                 "forces: {radiation: {model: plates, file: %s/box-wing.plates}}\n",
+                 all[i].epoch, SRP_MODELS_DIR);
+        const srp_status status = srp_mission_parse(
+            text, strlen(text), SRP_CORPUS_DIR "/aem/t.yaml", NULL, &mission, &error);
+        ck_assert_msg(status == all[i].status, "%s: %s", all[i].epoch, error.message);
+        if (status != SRP_OK) {
+            ck_assert_uint_eq(error.line, 7);
+            ck_assert_msg(strstr(error.message, all[i].words) != NULL, "%s", error.message);
+        }
+        srp_mission_destroy(mission);
+    }
+}
+END_TEST
+
 /* Elements that are no orbit; a field that needs the Earth; a table that pulls. */
 START_TEST(more_forms_are_checked) {
     static char text[8000];
@@ -528,6 +558,7 @@ int main(void) {
                         sizeof MISTAKES / sizeof MISTAKES[0]);
     tcase_add_test(all, other_mistakes_are_told);
     tcase_add_test(all, more_forms_are_checked);
+    tcase_add_test(all, attitude_files_must_cover_the_mission);
     tcase_add_test(all, tables_that_pull_are_refused);
     tcase_add_test(all, a_mission_runs_and_writes);
     tcase_add_test(all, the_oem_rules_can_fail);
