@@ -92,13 +92,39 @@ static srp_status keep_texts(const mission_source *source, srp_mission *mission,
     return SRP_OK;
 }
 
+/* The years that ERFA's series of Earth and Sun are made for [JD - 2430000]. */
+static const double YEAR_1900 = 2415020.5 - 2430000.0, YEAR_2100 = 2488069.5 - 2430000.0;
+
+/* What is less sure outside some span of dates, of the begin and of the end. */
+static void warn_of_date(const mission_source *source, const srp_log *log,
+                         const srp_mission_info *info, const char *path, double t) {
+    const srp_epoch now = srp_epoch_add(info->epoch, t);
+    const double mjd = srp_epoch_gmat_mjd(now, SRP_TIME_TDB);
+    char date[SRP_EPOCH_TEXT_SIZE], text[SRP_EPOCH_TEXT_SIZE + 8];
+    srp_epoch same;
+    srp_error ignored;
+    bool beyond = false;
+    srp_epoch_format(now, SRP_TIME_UTC, 3, date);
+    snprintf(text, sizeof text, "%s UTC", date);
+    if (info->scale == SRP_TIME_UTC && srp_epoch_parse(text, &same, &beyond, &ignored) == SRP_OK &&
+        beyond) {
+        mission_warn(source, log, path,
+                     "%s is outside the table of leap seconds: UTC is a guess there", text);
+    }
+    if (!(mjd >= YEAR_1900 && mjd <= YEAR_2100)) {
+        mission_warn(source, log, path,
+                     "%s is outside the years 1900 to 2100, for which the series of Sun and Moon "
+                     "are made",
+                     text);
+    }
+}
+
 static srp_status read_times(const mission_source *source, const srp_log *log, srp_mission *mission,
                              srp_error *error) {
     const mission_file *file = mission_source_file(source);
     srp_mission_info *info = &mission->info;
     srp_error why;
-    bool beyond = false;
-    srp_status status = srp_epoch_parse(file->epoch, &info->epoch, &beyond, &why);
+    srp_status status = srp_epoch_parse(file->epoch, &info->epoch, NULL, &why);
     if (status != SRP_OK) {
         return mission_fail(source, error, status, "epoch", "%s", why.message);
     }
@@ -106,10 +132,7 @@ static srp_status read_times(const mission_source *source, const srp_log *log, s
     if (!srp_time_scale_find(scale, &info->scale)) {
         info->scale = SRP_TIME_TAI;
     }
-    if (beyond) {
-        mission_warn(source, log, "epoch",
-                     "%s is outside the table of leap seconds: UTC is a guess there", file->epoch);
-    }
+    warn_of_date(source, log, info, "epoch", 0.0);
     status =
         mission_positive(source, "duration", file->duration, MISSION_TIME, &info->duration, error);
     info->step = info->duration;
@@ -120,6 +143,9 @@ static srp_status read_times(const mission_source *source, const srp_log *log, s
     if (status == SRP_OK && info->duration > 100.0 * 365.25 * 86400.0) {
         return mission_fail(source, error, SRP_BAD_DATA, "duration",
                             "'%s', expected at most 100 years", file->duration);
+    }
+    if (status == SRP_OK) {
+        warn_of_date(source, log, info, "duration", info->duration);
     }
     if (status == SRP_OK && info->duration / info->step > 1e8) {
         return mission_fail(source, error, SRP_BAD_DATA, "output.step",

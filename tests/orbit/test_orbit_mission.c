@@ -66,8 +66,13 @@ static void compose(char *text, int line, const char *instead) {
     }
 }
 
+static srp_status parse_with(const char *text, const srp_mission_context *context,
+                             srp_mission **out, srp_error *error) {
+    return srp_mission_parse(text, strlen(text), SRP_MODELS_DIR "/test.yaml", context, out, error);
+}
+
 static srp_status parse(const char *text, srp_mission **out, srp_error *error) {
-    return srp_mission_parse(text, strlen(text), SRP_MODELS_DIR "/test.yaml", NULL, out, error);
+    return parse_with(text, NULL, out, error);
 }
 
 typedef struct mistake {
@@ -531,23 +536,51 @@ START_TEST(a_run_can_be_cancelled) {
 }
 END_TEST
 
+typedef struct warnings {
+    int epoch, duration;
+    char last[200];
+} warnings;
+
 static void count_warning(void *user, const srp_error *what) {
-    *(int *)user += what->line == 2;
+    warnings *w = user;
+    w->epoch += what->line == 2;
+    w->duration += what->line == 3;
+    snprintf(w->last, sizeof w->last, "%.190s", what->message);
 }
 
-START_TEST(epochs_beyond_the_leap_seconds_are_warned_of) {
-    static char text[8000];
-    srp_mission *mission = NULL;
-    srp_error error;
-    int warnings = 0;
-    const srp_log log = {count_warning, &warnings};
-    const srp_mission_context context = {&log, NULL, NULL, NULL};
-    compose(text, 2, "epoch: 2070-03-20T00:00:00 UTC");
-    assert_ok(srp_mission_parse(text, strlen(text), SRP_MODELS_DIR "/test.yaml", &context, &mission,
-                                &error),
-              error);
-    ck_assert_int_eq(warnings, 1);
-    srp_mission_destroy(mission);
+START_TEST(dates_that_are_not_sure_are_warned_of) {
+    static const struct {
+        const char *epoch, *duration;
+        int at_epoch, at_duration;
+        const char *words;
+    } all[] = {
+        {"2024-03-20T00:00:00 UTC", "6 h", 0, 0, ""},
+        {"2070-03-20T00:00:00 UTC", "6 h", 1, 1, "table of leap seconds"},
+        {"2024-03-20T00:00:00 UTC", "50 d", 0, 0, ""},
+        {"2024-03-20T00:00:00 UTC", "18000 d", 0, 1,
+         "2073-07-01T00:00:00.000 UTC is outside the table"},
+        {"2070-03-20T00:00:00 TT", "6 h", 0, 0, ""},
+        {"2099-12-31T23:00:00 TAI", "6 h", 0, 1, "1900 to 2100"},
+        {"1899-03-20T00:00:00 TAI", "6 h", 1, 1, "1900 to 2100"},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
+        char text[1000];
+        srp_mission *mission = NULL;
+        srp_error error;
+        warnings w = {0, 0, ""};
+        const srp_log log = {count_warning, &w};
+        const srp_mission_context context = {&log, NULL, NULL, NULL};
+        snprintf(text, sizeof text,
+                 "title: t\nepoch: %s\nduration: %s\nspacecraft: {mass: 9 kg}\nstate: {position: "
+                 "7000 0 0 km, velocity: 0 7.5 0 km/s}\n",
+                 all[i].epoch, all[i].duration);
+        assert_ok(parse_with(text, &context, &mission, &error), error);
+        ck_assert_msg(w.epoch == all[i].at_epoch && w.duration == all[i].at_duration &&
+                          strstr(w.last, all[i].words) != NULL,
+                      "%s, %s: %d, %d: %s", all[i].epoch, all[i].duration, w.epoch, w.duration,
+                      w.last);
+        srp_mission_destroy(mission);
+    }
 }
 END_TEST
 
@@ -565,7 +598,7 @@ int main(void) {
     tcase_add_test(all, without_shadows_there_are_none);
     tcase_add_test(all, falling_to_the_ground_is_told);
     tcase_add_test(all, a_run_can_be_cancelled);
-    tcase_add_test(all, epochs_beyond_the_leap_seconds_are_warned_of);
+    tcase_add_test(all, dates_that_are_not_sure_are_warned_of);
     suite_add_tcase(suite, all);
     return run_suite(suite);
 }
