@@ -168,6 +168,12 @@ static size_t units_of(double seconds, const char **things) {
     return (size_t)ceil(seconds / units[i].length);
 }
 
+/* A mission that asks for what is not there is wrong input, not wrong usage. */
+static int mission_error(const srp_error *error) {
+    const int status = cli_input_error(error);
+    return status == CLI_BAD_USAGE ? CLI_BAD_INPUT : status;
+}
+
 static int run_mission(propagate_job *job, srp_mission_summary *summary) {
     const srp_mission_watch watch = {on_row, on_event, on_progress, job};
     const char *things;
@@ -185,7 +191,7 @@ static int run_mission(propagate_job *job, srp_mission_summary *summary) {
         cli_system_die_by_signal(cli_system_signal_seen());
     }
     if (status != SRP_OK) {
-        return job->file_failed ? cli_output_error(&error) : cli_input_error(&error);
+        return job->file_failed ? cli_output_error(&error) : mission_error(&error);
     }
     return job->file_failed ? cli_output_error(&job->file_error) : CLI_DONE;
 }
@@ -449,12 +455,12 @@ static int propagate(const propagate_options *options, const cli_operands *opera
             "and --events");
     }
     if (srp_mission_read(operands->items[0], &context, &a, &error) != SRP_OK) {
-        return cli_input_error(&error);
+        return mission_error(&error);
     }
     int status = CLI_DONE;
     if (options->versus != NULL &&
         srp_mission_read(options->versus, &context, &b, &error) != SRP_OK) {
-        status = cli_input_error(&error);
+        status = mission_error(&error);
     }
     cli_system_catch_signals();
     if (status == CLI_DONE) {

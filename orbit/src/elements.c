@@ -45,9 +45,12 @@ srp_status srp_elements_to_state(double mu, const srp_elements *el, srp_vec3 *r,
     const double q = 1.0 + el->e * cos(el->nu);
     if (!(p > 0.0 && el->e >= 0.0 && q > 0.0 && mu > 0.0 &&
           isfinite(p + el->i + el->raan + el->argp + el->nu))) {
-        return srp_fail(error, SRP_BAD_ARGUMENT,
-                        "elements a = %g m, e = %g, true anomaly %g rad: there is no such orbit",
-                        el->a, el->e, el->nu);
+        return srp_fail(
+            error, SRP_BAD_ARGUMENT,
+            "elements a = %g m, e = %g, true anomaly %g rad: there is no such orbit; expected "
+            "a > 0 with 0 <= e < 1, or a < 0 with e > 1 and an anomaly between the "
+            "asymptotes",
+            el->a, el->e, el->nu);
     }
     const double u = el->argp + el->nu, ci = cos(el->i), si = sin(el->i);
     const double co = cos(el->raan), so = sin(el->raan), rn = p / q, k = sqrt(mu / p);

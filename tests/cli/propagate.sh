@@ -178,6 +178,19 @@ expect 2 propagate a.yaml --what
 expect 0 propagate --help
 prints "MISSION.yaml"
 
+# ---- what is not there is wrong input; advice is for missions ----
+{ cat a.yaml; echo 'central_body: moon'; } | sed 's#^forces:#&\n  gravity: {file: x.gfc, degree: 2}#; /^central_body: earth/d' > moon.yaml
+expect 1 propagate moon.yaml
+says "forces.gravity"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl foil\nf 1 2 3\n' > bare.obj
+sed -e "s#model: cannonball#model: direct\n    file: bare.obj#; /cr:/d; /area:/d; s#mass: .*#&\n  attitude: {mode: sun}#" a.yaml > bare.yaml
+expect 1 propagate bare.yaml
+says "bare.yaml:$(grep -n "file: bare.obj" bare.yaml | cut -d: -f1):"
+says "under 'materials' of the mission"
+says_not "--material"
+sed -i "s#file: bare.obj#&\n    materials: [{name: foil, rho_s: 0.3, rho_d: 0.2}]#" bare.yaml
+expect 0 propagate bare.yaml
+
 # ---- the date beyond the leap seconds is warned of ----
 sed "s/^epoch: .*/epoch: 2080-03-20T00:00:00 UTC/" a.yaml > late.yaml
 expect 0 propagate late.yaml
