@@ -220,8 +220,9 @@ static file_names names_of(const propagate_options *options, const srp_mission_i
     return names;
 }
 
-/* Can `path` be written, and is it none of the files that the mission is read from? */
-static int check_output(const char *path, const srp_mission_info *info) {
+/* Can `path` be written, and is it none of the files that the mission is read from? `key`: the
+ * entry of the mission that names it, NULL for an option. */
+static int check_output(const char *path, const char *key, const srp_mission_info *info) {
     const char *const inputs[] = {info->file, info->gravity_file, info->radiation_file,
                                   info->attitude_file};
     for (size_t i = 0; i < sizeof inputs / sizeof inputs[0]; ++i) {
@@ -231,6 +232,9 @@ static int check_output(const char *path, const srp_mission_info *info) {
     }
     const char *reason;
     if (!cli_system_can_write(path, &reason)) {
+        if (key != NULL) {
+            fprintf(stderr, "%s: %s: ", info->file, key);
+        }
         fprintf(stderr, "%s: cannot write: %s\n", path, reason);
         return CLI_MACHINE_FAILED;
     }
@@ -239,8 +243,11 @@ static int check_output(const char *path, const srp_mission_info *info) {
 
 static int check_names(const file_names *names, const srp_mission_info *info) {
     const char *all[] = {names->oem, names->report, names->events};
+    const char *own[] = {info->oem, info->report, info->events};
+    const char *keys[] = {"output.oem", "output.report", "output.events"};
     for (size_t i = 0; i < FILE_COUNT; ++i) {
-        int status = all[i] != NULL ? check_output(all[i], info) : CLI_DONE;
+        const char *key = all[i] == own[i] ? keys[i] : NULL;
+        int status = all[i] != NULL ? check_output(all[i], key, info) : CLI_DONE;
         if (status != CLI_DONE) {
             return status;
         }
@@ -381,8 +388,9 @@ static int check_differences(const propagate_options *options, const srp_mission
             return cli_usage_error("'%s' is to be written twice", all[i]);
         }
     }
-    int status = check_output(options->output, srp_mission_get_info(a));
-    return status == CLI_DONE ? check_output(options->output, srp_mission_get_info(b)) : status;
+    int status = check_output(options->output, NULL, srp_mission_get_info(a));
+    return status == CLI_DONE ? check_output(options->output, NULL, srp_mission_get_info(b))
+                              : status;
 }
 
 /* What both must have alike; the first that they have not. */

@@ -132,6 +132,10 @@ expect 3 propagate a.yaml --versus b.yaml -o no-such-directory/x
 says "No such file"
 expect 3 propagate a.yaml --report .
 says "is a directory"
+sed "s#^output:#&\n  events: no-such-directory/x#" a.yaml > there.yaml
+expect 3 propagate there.yaml
+says "there.yaml: output.events: no-such-directory/x: cannot write: No such file"
+rm there.yaml
 # Other things than a mission.
 : > empty.yaml
 expect 1 propagate empty.yaml
