@@ -67,19 +67,27 @@ const srp_method *const *srp_gl_method_list(size_t *count) {
     return METHODS;
 }
 
-srp_status srp_gl_device_describe(const char *device, srp_gl_description *out, srp_error *error) {
+const srp_gl_device *srp_gl_device_find(const char *name) {
     for (size_t k = 0; k < sizeof DEVICE_LIST / sizeof DEVICE_LIST[0]; ++k) {
-        if (strcmp(DEVICE_LIST[k]->name, device) == 0) {
-            srp_gl_context *context = NULL;
-            srp_status status = srp_gl_context_create(DEVICE_LIST[k], &context, error);
-            if (status == SRP_OK) {
-                (void)snprintf(out->renderer, sizeof out->renderer, "%s", context->renderer);
-                (void)snprintf(out->version, sizeof out->version, "%s", context->version);
-                out->computes = context->computes;
-                srp_gl_context_destroy(context);
-            }
-            return status;
+        if (strcmp(DEVICE_LIST[k]->name, name) == 0) {
+            return DEVICE_LIST[k];
         }
     }
-    return srp_fail(error, SRP_NOT_FOUND, "no device '%.60s'", device);
+    return NULL;
+}
+
+srp_status srp_gl_device_describe(const char *device, srp_gl_description *out, srp_error *error) {
+    const srp_gl_device *found = srp_gl_device_find(device);
+    if (found == NULL) {
+        return srp_fail(error, SRP_NOT_FOUND, "no device '%.60s'", device);
+    }
+    srp_gl_context *context = NULL;
+    srp_status status = srp_gl_context_create(found, &context, error);
+    if (status == SRP_OK) {
+        (void)snprintf(out->renderer, sizeof out->renderer, "%s", context->renderer);
+        (void)snprintf(out->version, sizeof out->version, "%s", context->version);
+        out->computes = context->computes;
+        srp_gl_context_destroy(context);
+    }
+    return status;
 }
