@@ -40,6 +40,15 @@ srp_render_camera srp_render_camera_fit(const srp_scene *scene, double az, doubl
     return camera;
 }
 
+double srp_render_reach(const srp_scene *scene, srp_vec3 direction) {
+    double reach = 0.0;
+    for (size_t i = 0; i < scene->vertex_count; ++i) {
+        double along = srp_vec3_dot(scene->vertices[i], direction);
+        reach = i == 0 || along > reach ? along : reach;
+    }
+    return reach;
+}
+
 /* Distance of the eye from the target; only of cameras that are not parallel. */
 static double distance_of(const srp_render_camera *camera) {
     return camera->half_height / tan(0.5 * camera->field);

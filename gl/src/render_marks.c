@@ -22,6 +22,10 @@ static const srp_render_colour AXIS_COLOUR[3] = {
     {0.84F, 0.15F, 0.16F}, {0.13F, 0.60F, 0.17F}, {0.15F, 0.32F, 0.85F}};
 static const srp_render_colour SUN_COLOUR = {0.98F, 0.80F, 0.10F};
 
+srp_render_colour srp_render_axis_colour(int axis) {
+    return AXIS_COLOUR[axis >= 0 && axis < 3 ? axis : 0];
+}
+
 /* Where marks are built: unit space. */
 typedef struct drawer {
     srp_render_corners *to;

@@ -64,6 +64,10 @@ typedef struct srp_render_camera {
 SRP_API srp_render_camera srp_render_camera_fit(const srp_scene *scene, double az, double el,
                                                 double aspect);
 
+/* How far a mesh reaches from the body origin along a unit vector: the largest p . direction of its
+ * vertices [m]. Arrows that end further out are seen. Any thread. */
+SRP_API double srp_render_reach(const srp_scene *scene, srp_vec3 direction);
+
 /* Axes of the picture in the body frame: unit vectors to its right, up, and to the eye. Moving the
  * target along the first two pans. Any thread. */
 SRP_API void srp_render_camera_axes(const srp_render_camera *camera, srp_vec3 *right, srp_vec3 *up,
@@ -129,6 +133,9 @@ SRP_API srp_render_view srp_render_view_default(void);
 /* Colours that materials have unless told otherwise; those of 0 to 9 are told apart by all eyes
  * as well as ten colours can be, after that they repeat. Any thread. */
 SRP_API srp_render_colour srp_render_material_colour(size_t index);
+
+/* Colours of the body axes: of x, y, z for 0, 1, 2. Any thread. */
+SRP_API srp_render_colour srp_render_axis_colour(int axis);
 
 /* Values of facets as SRP_RENDER_INCIDENCE and SRP_RENDER_FORCE colour them, for a scale beside the
  * picture: values (facet count), of the side that faces the Sun, shadows left out of account; a

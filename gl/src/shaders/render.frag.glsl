@@ -36,8 +36,8 @@ void main() {
         float shade = 0.55 + 0.45 * abs(dot(across, sun.xyz));
         colour = vec4(own * mix(shade, 1.0, data), opacity);
     } else {
-        // In shadow: dark, but for the form.
-        vec3 dark = mix(own, vec3(dot(own, vec3(0.3, 0.5, 0.2))), 0.35 + 0.65 * data);
-        colour = vec4(mix(dark, vec3(0.6), data) * (0.16 + 0.16 * seen), opacity);
+        // In shadow: dark, but for the form; beside values, grey, which no map of colours has.
+        vec3 dark = mix(own, vec3(dot(own, vec3(0.3, 0.5, 0.2))), 0.35) * (0.16 + 0.16 * seen);
+        colour = vec4(mix(dark, vec3(0.26 + 0.16 * seen), data), opacity);
     }
 }
