@@ -68,12 +68,10 @@ static void add_marks(const cli_portrait *portrait, cli_panel_view *panel, srp_v
 
 /* ---- cameras ---- */
 
-/* Room for words at the tips of arrows, as a share of the picture. */
-static const double ROOM = 0.10;
-
 /* A camera that shows the scene and all arrows of the panel. */
-static srp_render_camera frame(const srp_scene *scene, const cli_panel_view *panel,
+static srp_render_camera frame(const cli_page *page, const cli_panel_view *panel,
                                const double view[2]) {
+    const srp_scene *scene = page->portrait->scene;
     double aspect = (double)panel->width / panel->height;
     srp_vec3 right, up, eye;
     srp_render_camera camera =
@@ -93,7 +91,12 @@ static srp_render_camera frame(const srp_scene *scene, const cli_panel_view *pan
     srp_vec3 middle = srp_vec3_add(srp_vec3_scale(0.5 * (box[0] + box[1]), right),
                                    srp_vec3_scale(0.5 * (box[2] + box[3]), up));
     camera.target = srp_vec3_add_scaled(middle, srp_vec3_dot(camera.target, eye), eye);
-    camera.half_height = (0.5 + ROOM) * fmax(box[3] - box[2], (box[1] - box[0]) / aspect);
+    double across, along;
+    cli_page_margins(page, &across, &along);
+    across = fmin(2.0 * across / panel->width, 0.5);
+    along = fmin(2.0 * along / panel->height, 0.5);
+    camera.half_height =
+        0.5 * fmax((box[3] - box[2]) / (1.0 - along), (box[1] - box[0]) / aspect / (1.0 - across));
     return camera;
 }
 
@@ -157,7 +160,7 @@ static int set_up(const cli_portrait *portrait, studio *s) {
         cli_panel_view *panel = &page->panel[k];
         srp_render_view *view = &s->view[k];
         add_marks(portrait, panel, sun, k == 1, s->arrows[k]);
-        panel->camera = frame(portrait->scene, panel, k == 0 ? portrait->sun : portrait->side);
+        panel->camera = frame(page, panel, k == 0 ? portrait->sun : portrait->side);
         *view = srp_render_view_default();
         view->width = s->fine * panel->width;
         view->height = s->fine * panel->height;
@@ -168,7 +171,7 @@ static int set_up(const cli_portrait *portrait, studio *s) {
         view->map_count = CLI_PALETTE_SIZE;
         view->background = (srp_render_colour){0.97F, 0.97F, 0.98F};
         for (size_t j = 0; j < panel->mark_count; ++j) {
-            s->arrows[k][j].width = fmax(view->height / 210.0, 1.0);
+            s->arrows[k][j].width = fmax(fmin(view->height, view->width) / 200.0, 1.0);
         }
         view->arrows = s->arrows[k];
         view->arrow_count = panel->mark_count;

@@ -8,13 +8,22 @@
 
 /* Of a page 1600 wide [px]. */
 enum { TITLE = 26, WORDS = 17, EDGE = 16, TITLE_ROW = 54, CAPTION_ROW = 32, LEGEND_ROW = 30 };
-enum { LEGEND_ROWS = 3, WORD_MIN_PX = 9 };
+enum { LEGEND_ROWS = 3, WORD_MIN_PX = 10 };
 
 static const srp_render_colour INK = {0.10F, 0.10F, 0.10F}, PALE = {0.42F, 0.42F, 0.42F};
 
-/* Rows of the legend and the line of numbers below it. */
+/* Lines that the numbers below the legend take. */
+static int number_rows(const cli_page *page) {
+    return page->portrait->width / page->unit < 1000.0 ? 2 : 1;
+}
+
 static double footer_height(const cli_page *page) {
-    return (LEGEND_ROWS + 1) * LEGEND_ROW * page->unit + EDGE * page->unit;
+    return ((LEGEND_ROWS + number_rows(page)) * LEGEND_ROW + EDGE) * page->unit;
+}
+
+void cli_page_margins(const cli_page *page, double *across, double *along) {
+    *across = 3.4 * WORDS * page->unit;
+    *along = 1.9 * WORDS * page->unit;
 }
 
 void cli_page_lay_out(cli_page *page) {
@@ -44,16 +53,31 @@ typedef struct words {
     srp_render_colour colour;
 } words;
 
-static void put(cairo_t *to, const words *w) {
-    int width, height;
+/* Too long a text is made smaller before it is cut, down to this share. */
+static const double SMALLEST = 0.72;
+
+/* One line of `size` [px]; for g_object_unref(). */
+static PangoLayout *line_of(cairo_t *to, const words *w, double size) {
     PangoLayout *layout = pango_cairo_create_layout(to);
     PangoFontDescription *font = pango_font_description_from_string("DejaVu Sans, sans-serif");
-    pango_font_description_set_absolute_size(font, w->size * PANGO_SCALE);
+    pango_font_description_set_absolute_size(font, size * PANGO_SCALE);
     pango_font_description_set_weight(font,
                                       w->stands_out ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
     pango_layout_set_font_description(layout, font);
+    pango_font_description_free(font);
     pango_layout_set_single_paragraph_mode(layout, TRUE);
     pango_layout_set_text(layout, w->text, -1);
+    return layout;
+}
+
+static void put(cairo_t *to, const words *w) {
+    int width, height;
+    PangoLayout *layout = line_of(to, w, w->size);
+    pango_layout_get_pixel_size(layout, &width, &height);
+    if (w->width > 0.0 && width > w->width) {
+        g_object_unref(layout);
+        layout = line_of(to, w, w->size * fmax(0.98 * w->width / width, SMALLEST));
+    }
     if (w->width > 0.0) {
         pango_layout_set_width(layout, (int)(w->width * PANGO_SCALE));
         pango_layout_set_ellipsize(layout, PANGO_ELLIPSIZE_MIDDLE);
@@ -71,7 +95,6 @@ static void put(cairo_t *to, const words *w) {
     }
     cairo_set_source_rgb(to, (double)w->colour.r, (double)w->colour.g, (double)w->colour.b);
     pango_cairo_show_layout(to, layout);
-    pango_font_description_free(font);
     g_object_unref(layout);
 }
 
@@ -224,19 +247,26 @@ static void draw_numbers(const cli_page *page, cairo_t *to, double y) {
     const cli_portrait *portrait = page->portrait;
     const srp_response *r = &portrait->response;
     double size = srp_vec3_norm(r->f);
-    char text[320];
-    snprintf(text, sizeof text,
-             "Direct light: f = (%.4g, %.4g, %.4g) m², |f| = %.4g m²; force at 1 au %.4g N; lit "
-             "area %.4g m²",
-             tidy(r->f.x, size), tidy(r->f.y, size), tidy(r->f.z, size), size,
-             portrait->pressure * srp_vec3_norm(r->f), r->lit_area);
-    words w = {.text = text,
-               .x = EDGE * page->unit,
-               .y = y,
-               .width = portrait->width - 2.0 * EDGE * page->unit,
-               .size = 0.95 * WORDS * page->unit,
-               .colour = INK};
-    put(to, &w);
+    char text[2][400], force[160];
+    snprintf(text[0], sizeof text[0], "Direct light: f = (%.4g, %.4g, %.4g) m², |f| = %.4g m²",
+             tidy(r->f.x, size), tidy(r->f.y, size), tidy(r->f.z, size), size);
+    snprintf(force, sizeof force, "force at 1 au %.4g N; lit area %.4g m²",
+             portrait->pressure * size, r->lit_area);
+    snprintf(text[1], sizeof text[1], "%s", force);
+    int rows = number_rows(page);
+    if (rows == 1) {
+        size_t length = strlen(text[0]);
+        snprintf(text[0] + length, sizeof text[0] - length, "; %s", force);
+    }
+    for (int k = 0; k < rows; ++k) {
+        words w = {.text = text[k],
+                   .x = EDGE * page->unit,
+                   .y = y + k * LEGEND_ROW * page->unit,
+                   .width = portrait->width - 2.0 * EDGE * page->unit,
+                   .size = 0.95 * WORDS * page->unit,
+                   .colour = INK};
+        put(to, &w);
+    }
 }
 
 void cli_page_draw(const cli_page *page, cairo_t *to) {

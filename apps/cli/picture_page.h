@@ -38,6 +38,8 @@ typedef struct cli_page {
 
 /* Places the panels. */
 void cli_page_lay_out(cli_page *page);
+/* Room for words at the tips of arrows, at either side of a panel, above and below [px]. */
+void cli_page_margins(const cli_page *page, double *across, double *along);
 /* Words, frames, legend: all but what is in the panels, and what goes over them. */
 void cli_page_draw(const cli_page *page, cairo_t *to);
 
