@@ -4,6 +4,7 @@
 
 #include "figure_draw.h"
 #include "messages.h"
+#include "svg_compact.h"
 #include "system.h"
 #include "text_file.h"
 
@@ -18,13 +19,16 @@ typedef struct format {
     const char *ending, *device;
     const char *tail; /* what a file that is whole ends with, but for white space */
     size_t tail_size;
-    uint32_t
-        steps_max; /* finer surfaces are not seen, and in an .svg each facet is a line of text */
+    /* Finer surfaces and maps are not seen, and in an .svg each piece is a line of text. */
+    uint32_t steps_max;               /* of surfaces */
+    int rows, levels;                 /* of colours on maps */
+    bool (*finish)(const char *path); /* what is still to be done; NULL: nothing */
 } format;
 
-static const format FORMATS[] = {{".png", "pngcairo", "IEND\xae\x42\x60\x82", 8, 90},
-                                 {".svg", "svgcairo", "</svg>", 6, 40},
-                                 {".pdf", "pdfcairo", "%%EOF", 5, 90}};
+static const format FORMATS[] = {
+    {".png", "pngcairo", "IEND\xae\x42\x60\x82", 8, 90, 360, 64, NULL},
+    {".svg", "svgcairo", "</svg>", 6, 40, 100, 40, cli_svg_compact_file},
+    {".pdf", "pdfcairo", "%%EOF", 5, 90, 180, 64, NULL}};
 
 static const format *format_of(const char *path) {
     size_t length = strlen(path);
@@ -210,6 +214,7 @@ static bool draw_surfaces(const cli_figure_options *options, const cli_picture *
 
 static bool draw_maps(const cli_figure_options *options, const cli_picture *picture) {
     bool good = true;
+    const format *kind = format_of(options->output);
     for (size_t r = 0; r < picture->rows; ++r) {
         cli_scale scale = scale_of(picture, r);
         for (size_t k = 0; k < 2; ++k) {
@@ -217,7 +222,8 @@ static bool draw_maps(const cli_figure_options *options, const cli_picture *pict
             cli_panel panel = cell(options, picture, left, left + 460.0, r);
             size_t column = picture->columns > 1 ? k : 0;
             bool mollweide = picture->columns == 1 && k == 1;
-            good = good && cli_figure_map(&panel, picture, column, r, scale, mollweide);
+            good = good && cli_figure_map(&panel, picture, column, r, scale, kind->rows,
+                                          kind->levels, mollweide);
         }
         cli_panel bar = cell(options, picture, 1100.0, 1122.0, r);
         cli_figure_bar(&bar, scale);
@@ -277,7 +283,11 @@ int cli_figure_write(const cli_figure_options *options, const cli_picture *pictu
         plend();
     }
     int status = CLI_MACHINE_FAILED;
-    if (!drawn || !is_whole(part, kind)) {
+    bool whole = drawn && is_whole(part, kind);
+    if (whole && kind->finish != NULL) {
+        whole = kind->finish(part) && is_whole(part, kind);
+    }
+    if (!whole) {
         fprintf(stderr, "%s: the figure could not be written\n", options->output);
         remove(part);
     } else {

@@ -64,6 +64,17 @@ if [ "$renew" != --renew ]; then
         fail 'pages of different sizes look alike'
 fi
 
+# However fine the table is, files stay of a size that a browser opens.
+expect 0 table "$MODELS/cube.obj" -o fine.nc --step 1
+expect 0 plot fine.nc -o fine.svg
+expect 0 plot fine.nc -o fine-map.svg --map
+expect 0 plot fine.nc -o fine-map.pdf --map
+for limit in fine.svg=4000000 fine-map.svg=16000000 fine-map.pdf=4000000; do
+    size=$(wc -c < "${limit%=*}")
+    echo "${limit%=*}: $size bytes"
+    [ "$size" -lt "${limit#*=}" ] || fail "${limit%=*} has $size bytes"
+done
+
 # Formats are valid, text is text, the same command gives the same picture.
 expect 0 plot box.nc -o a.svg
 prints 'a.svg'
