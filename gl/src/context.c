@@ -61,18 +61,15 @@ static srp_status draw_two_triangles(srp_gl_context *context, srp_error *error) 
                                         {3.0F, -1.0F, -0.5F}, {-1.0F, 0.0F, -0.5F}};
     static const uint32_t INDICES[6] = {0, 1, 2, 3, 4, 5};
     srp_gl_canvas canvas;
-    srp_status status = srp_gl_canvas_create(context, CORNERS[0], 6, &canvas, error);
+    srp_status status = srp_gl_canvas_create(context, &canvas, error);
     if (status != SRP_OK) {
         return status;
     }
-    srp_gl_view view = {
-        .along = {{1.0F, 0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F, 0.0F}},
-        .width = SIDE,
-        .height = SIDE};
+    srp_gl_view view = {.scale = {1.0F, 1.0F}, .width = SIDE, .height = SIDE};
     uint32_t ids[SIDE * SIDE] = {0};
     status = srp_gl_canvas_resize(&canvas, SIDE, 1, error);
     if (status == SRP_OK) {
-        srp_gl_canvas_send(&canvas, INDICES, 6);
+        srp_gl_canvas_send(&canvas, CORNERS[0], 6, INDICES, 6);
         srp_gl_canvas_begin(&canvas, 0, SIDE, SIDE);
         srp_gl_canvas_draw(&canvas, &view, 0, 2, 1);
         srp_gl_canvas_read(&canvas, 0, SIDE, SIDE, ids);

@@ -63,6 +63,7 @@
     X(PFNGLCOLORMASKPROC, ColorMask)                                                               \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                             \
     X(PFNGLUNIFORM1FPROC, Uniform1f)                                                               \
+    X(PFNGLUNIFORM2FPROC, Uniform2f)                                                               \
     X(PFNGLVERTEXATTRIBIPOINTERPROC, VertexAttribIPointer)                                         \
     X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                             \
     X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                                                   \

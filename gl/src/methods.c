@@ -24,7 +24,15 @@
     X(egl_4, "gl:egl:4", egl, 4)                                                                   \
     X(egl_5, "gl:egl:5", egl, 5)                                                                   \
     X(egl_6, "gl:egl:6", egl, 6)                                                                   \
-    X(egl_7, "gl:egl:7", egl, 7)
+    X(egl_7, "gl:egl:7", egl, 7)                                                                   \
+    X(egl_8, "gl:egl:8", egl, 8)                                                                   \
+    X(egl_9, "gl:egl:9", egl, 9)                                                                   \
+    X(egl_10, "gl:egl:10", egl, 10)                                                                \
+    X(egl_11, "gl:egl:11", egl, 11)                                                                \
+    X(egl_12, "gl:egl:12", egl, 12)                                                                \
+    X(egl_13, "gl:egl:13", egl, 13)                                                                \
+    X(egl_14, "gl:egl:14", egl, 14)                                                                \
+    X(egl_15, "gl:egl:15", egl, 15)
 
 /* A method on a device: function(s) of methods.h for what, and what it says of itself. */
 #define METHOD(id, text, what, about, can)                                                         \
