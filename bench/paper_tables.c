@@ -14,6 +14,8 @@
  *
  *   Table 3  cube, 512 x 512: mean |a_gl - a_cpu| of the same method
  *   Table 4  cube, 512 x 512: mean difference between methods on one device
+ *
+ * Usage: paper_tables [DEVICE [TABLE]], TABLE one of 1 to 4 (3 and 4 come together).
  */
 #include "bench.h"
 
@@ -263,15 +265,26 @@ static void run_tables_3_and_4(const char *device) {
 }
 
 int main(int argc, char **argv) {
-    if (argc > 1) {
-        for (size_t k = 0; k < sizeof TABLES / sizeof TABLES[0]; ++k) {
-            run_gl(&TABLES[k], argv[1]);
-        }
-        run_tables_3_and_4(argv[1]);
-        return EXIT_SUCCESS;
+    const char *device = argc > 1 && strcmp(argv[1], "cpu") != 0 ? argv[1] : NULL;
+    int wanted = argc > 2 ? atoi(argv[2]) : 0; /* 0: all */
+    if (argc > 3 || wanted < 0 || wanted > 4) {
+        (void)fprintf(stderr, "usage: paper_tables [DEVICE [1|2|3|4]]\n");
+        return 2;
     }
+    (void)setvbuf(stdout, NULL, _IOLBF, 0); /* rows take long */
     for (size_t k = 0; k < sizeof TABLES / sizeof TABLES[0]; ++k) {
-        run(&TABLES[k]);
+        int number = TABLES[k].plates == NULL ? 1 : 2;
+        if (wanted != 0 && wanted != number) {
+            continue;
+        }
+        if (device != NULL) {
+            run_gl(&TABLES[k], device);
+        } else {
+            run(&TABLES[k]);
+        }
+    }
+    if (device != NULL && (wanted == 0 || wanted > 2)) {
+        run_tables_3_and_4(device);
     }
     return EXIT_SUCCESS;
 }

@@ -8,8 +8,8 @@
 set -euo pipefail
 
 BUILD=(gcc g++ cmake ninja-build pkg-config libc6-dev libnetcdf-dev libxxhash-dev)
-# For plates that are fitted, and for figures; CMake goes on without them.
-BUILD+=(libgsl-dev libplplot-dev plplot-driver-cairo)
+# For plates that are fitted, figures and pictures; CMake goes on without them.
+BUILD+=(libgsl-dev libplplot-dev plplot-driver-cairo libpango1.0-dev)
 # The propagator: sky and time scales, mission files. Without them, too, the rest is built.
 BUILD+=(liberfa-dev libcyaml-dev libyaml-dev)
 TEST=(check libgsl-dev libpng-dev)

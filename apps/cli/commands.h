@@ -11,6 +11,7 @@ extern const cli_command cli_command_table;
 extern const cli_command cli_command_reoptic;
 extern const cli_command cli_command_convert;
 extern const cli_command cli_command_plot;
+extern const cli_command cli_command_picture;
 extern const cli_command cli_command_compare;
 extern const cli_command cli_command_fit_nplate;
 #ifdef SRP_CLI_HAS_ORBIT /* the propagator was built */

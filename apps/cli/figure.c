@@ -4,9 +4,12 @@
 
 #include "figure_draw.h"
 #include "messages.h"
+#include "svg_compact.h"
 #include "system.h"
 #include "text_file.h"
+#include "utf8.h"
 
+#include <errno.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -18,13 +21,16 @@ typedef struct format {
     const char *ending, *device;
     const char *tail; /* what a file that is whole ends with, but for white space */
     size_t tail_size;
-    uint32_t
-        steps_max; /* finer surfaces are not seen, and in an .svg each facet is a line of text */
+    /* Finer surfaces and maps are not seen, and in an .svg each piece is a line of text. */
+    uint32_t steps_max;               /* of surfaces */
+    int rows, levels;                 /* of colours on maps */
+    bool (*finish)(const char *path); /* what is still to be done; NULL: nothing */
 } format;
 
-static const format FORMATS[] = {{".png", "pngcairo", "IEND\xae\x42\x60\x82", 8, 90},
-                                 {".svg", "svgcairo", "</svg>", 6, 40},
-                                 {".pdf", "pdfcairo", "%%EOF", 5, 90}};
+static const format FORMATS[] = {
+    {".png", "pngcairo", "IEND\xae\x42\x60\x82", 8, 90, 360, 64, NULL},
+    {".svg", "svgcairo", "</svg>", 6, 40, 100, 40, cli_svg_compact_file},
+    {".pdf", "pdfcairo", "%%EOF", 5, 90, 180, 64, NULL}};
 
 static const format *format_of(const char *path) {
     size_t length = strlen(path);
@@ -170,8 +176,49 @@ static double page_height(const cli_figure_options *options, const cli_picture *
            row * (double)page_rows(options, picture);
 }
 
-static void put_words(double x, double y, double size, const char *text) {
-    char *masked = cli_figure_text(text);
+/* Letters that fit across the page at size 1; a text that is longer is made smaller, down to a
+ * share, before its middle is left out. */
+enum { PAGE_LETTERS = 130 };
+static const double SMALLEST = 0.7;
+
+/* At most `most` letters of `text`, of which the middle is left out if need be; freed by the
+ * caller. NULL without memory. */
+static char *shortened(const char *text, size_t count, size_t most) {
+    static const char DOTS[] = "…";
+    char *out = malloc(strlen(text) + sizeof DOTS), *to = out;
+    size_t head = count > most ? most / 2 : count,
+           tail = count > most ? count - (most - head - 1) : count;
+    for (size_t k = 0; out != NULL && *text != '\0'; ++k) {
+        size_t size = cli_utf8_length(text);
+        size = size > 0 ? size : 1;
+        if (k == head && count > most) {
+            memcpy(to, DOTS, sizeof DOTS - 1);
+            to += sizeof DOTS - 1;
+        }
+        if (k < head || k >= tail) {
+            memcpy(to, text, size);
+            to += size;
+        }
+        text += size;
+    }
+    if (out != NULL) {
+        *to = '\0';
+    }
+    return out;
+}
+
+/* Words about a point, on a share of the page's width. */
+static void put_words(double x, double y, double size, double share, const char *text) {
+    size_t count = 0, room = (size_t)(share * PAGE_LETTERS / size);
+    for (const char *at = text; *at != '\0'; ++count) {
+        size_t length = cli_utf8_length(at);
+        at += length > 0 ? length : 1;
+    }
+    if (count > room) {
+        size *= fmax((double)room / (double)count, SMALLEST);
+    }
+    char *cut = shortened(text, count, (size_t)((double)room / SMALLEST));
+    char *masked = cut != NULL ? cli_figure_text(cut) : NULL;
     plvpor(0.0, 1.0, 0.0, 1.0);
     plwind(0.0, 1.0, 0.0, 1.0);
     plcol0(INK_BLACK);
@@ -179,6 +226,7 @@ static void put_words(double x, double y, double size, const char *text) {
     plptex(x, y, 1.0, 0.0, 0.5, masked != NULL ? masked : "");
     plschr(0.0, 1.0);
     free(masked);
+    free(cut);
 }
 
 /* The place of column c of `columns`, row r from above; `x` and `y` margins in page units. */
@@ -210,6 +258,7 @@ static bool draw_surfaces(const cli_figure_options *options, const cli_picture *
 
 static bool draw_maps(const cli_figure_options *options, const cli_picture *picture) {
     bool good = true;
+    const format *kind = format_of(options->output);
     for (size_t r = 0; r < picture->rows; ++r) {
         cli_scale scale = scale_of(picture, r);
         for (size_t k = 0; k < 2; ++k) {
@@ -217,7 +266,8 @@ static bool draw_maps(const cli_figure_options *options, const cli_picture *pict
             cli_panel panel = cell(options, picture, left, left + 460.0, r);
             size_t column = picture->columns > 1 ? k : 0;
             bool mollweide = picture->columns == 1 && k == 1;
-            good = good && cli_figure_map(&panel, picture, column, r, scale, mollweide);
+            good = good && cli_figure_map(&panel, picture, column, r, scale, kind->rows,
+                                          kind->levels, mollweide);
         }
         cli_panel bar = cell(options, picture, 1100.0, 1122.0, r);
         cli_figure_bar(&bar, scale);
@@ -228,9 +278,9 @@ static bool draw_maps(const cli_figure_options *options, const cli_picture *pict
 static bool draw_page(const cli_figure_options *options, const cli_picture *picture) {
     double height = page_height(options, picture);
     pladv(0);
-    put_words(0.5, 1.0 - 0.5 * TITLE_PX / height, 1.25, picture->title);
+    put_words(0.5, 1.0 - 0.5 * TITLE_PX / height, 1.25, 1.0, picture->title);
     for (size_t c = 0; c < picture->columns && picture->columns > 1; ++c) {
-        put_words(0.25 + 0.5 * (double)c, 1.0 - (TITLE_PX + 0.4 * HEADING_PX) / height, 1.0,
+        put_words(0.25 + 0.5 * (double)c, 1.0 - (TITLE_PX + 0.4 * HEADING_PX) / height, 1.0, 0.5,
                   picture->heading[c]);
     }
     return options->map ? draw_maps(options, picture) : draw_surfaces(options, picture);
@@ -269,6 +319,13 @@ int cli_figure_write(const cli_figure_options *options, const cli_picture *pictu
         cli_say("no memory for the figure");
         return CLI_MACHINE_FAILED;
     }
+    FILE *probe = fopen(part, "wb"); /* PLplot asks for another name */
+    if (probe == NULL) {
+        fprintf(stderr, "%s: cannot write: %s\n", options->output, strerror(errno));
+        free(part);
+        return CLI_MACHINE_FAILED;
+    }
+    fclose(probe);
     volatile bool drawn = false;
     plsexit(leave);
     if (setjmp(way_out) == 0) {
@@ -277,7 +334,11 @@ int cli_figure_write(const cli_figure_options *options, const cli_picture *pictu
         plend();
     }
     int status = CLI_MACHINE_FAILED;
-    if (!drawn || !is_whole(part, kind)) {
+    bool whole = drawn && is_whole(part, kind);
+    if (whole && kind->finish != NULL) {
+        whole = kind->finish(part) && is_whole(part, kind);
+    }
+    if (!whole) {
         fprintf(stderr, "%s: the figure could not be written\n", options->output);
         remove(part);
     } else {

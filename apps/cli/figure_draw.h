@@ -37,11 +37,12 @@ void cli_figure_colours(cli_scale scale, double low, double high);
 /* `text` with PLplot's own escapes masked; freed by the caller. NULL without memory. */
 char *cli_figure_text(const char *text);
 
-/* Each draws one field; false without memory. */
+/* Each draws one field; false without memory. `rows`: of colours on a map, twice as many columns.
+ */
 bool cli_figure_surface(const cli_panel *panel, const cli_picture *picture, size_t column,
                         size_t row, cli_scale scale, const cli_look *look);
 bool cli_figure_map(const cli_panel *panel, const cli_picture *picture, size_t column, size_t row,
-                    cli_scale scale, bool mollweide);
+                    cli_scale scale, int rows, int levels, bool mollweide);
 /* The colours of a scale, as a bar with numbers at its right. */
 void cli_figure_bar(const cli_panel *panel, cli_scale scale);
 

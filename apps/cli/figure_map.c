@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { LEVELS = 64, LINES = 8 };
+enum { LINES = 8 };
 
 /* theta of Mollweide's projection: 2 theta + sin 2 theta = pi sin el (Snyder, Map Projections,
  * 1987, eq. 31-3), by bisection and Newton steps. */
@@ -138,43 +138,62 @@ static void draw_contours(const map *m, cli_scale scale) {
     plwidth(1.0);
 }
 
-static void colour_cells(const map *m, cli_scale scale) {
-    for (PLINT i = 0; i + 1 < m->nx; ++i) {
-        for (PLINT j = 0; j + 1 < m->ny; ++j) {
-            PLFLT x[4] = {m->at.xg[i][j], m->at.xg[i + 1][j], m->at.xg[i + 1][j + 1],
-                          m->at.xg[i][j + 1]};
-            PLFLT y[4] = {m->at.yg[i][j], m->at.yg[i + 1][j], m->at.yg[i + 1][j + 1],
-                          m->at.yg[i][j + 1]};
-            double mean =
-                0.25 * (m->z[i][j] + m->z[i + 1][j] + m->z[i + 1][j + 1] + m->z[i][j + 1]);
-            plcol1((mean - scale.low) / (scale.high - scale.low));
-            plfill(4, x, y);
+/* The value between nodes, by lines along both angles. */
+static double value_at(const map *m, double az_deg, double el_deg) {
+    double i = (az_deg + 180.0) / 360.0 * (m->nx - 1), j = (el_deg + 90.0) / 180.0 * (m->ny - 1);
+    PLINT i0 = (PLINT)fmin(floor(i), m->nx - 2), j0 = (PLINT)fmin(floor(j), m->ny - 2);
+    double t = i - i0, u = j - j0;
+    return (1.0 - u) * ((1.0 - t) * m->z[i0][j0] + t * m->z[i0 + 1][j0]) +
+           u * ((1.0 - t) * m->z[i0][j0 + 1] + t * m->z[i0 + 1][j0 + 1]);
+}
+
+static int level_of(double value, cli_scale scale, int levels) {
+    double at = (value - scale.low) / (scale.high - scale.low) * levels;
+    return (int)fmin(fmax(at, 0.0), levels - 1.0);
+}
+
+/* The part of a row between two azimuths, in one colour. */
+static void fill_run(double az0, double az1, double el0, double el1, double colour,
+                     bool mollweide) {
+    const double az[4] = {az0, az1, az1, az0}, el[4] = {el0, el0, el1, el1};
+    PLFLT x[4], y[4];
+    for (int k = 0; k < 4; ++k) {
+        place(az[k], el[k], mollweide, &x[k], &y[k]);
+    }
+    plcol1(colour);
+    plfill(4, x, y);
+}
+
+/* Rows of equal height; along each, what has one colour is one piece: however fine the table is, a
+ * figure stays of a size. */
+static void shade(const map *m, cli_scale scale, int rows, int levels, bool mollweide) {
+    int columns = 2 * rows;
+    plpsty(0);
+    for (int j = 0; j < rows; ++j) {
+        double el0 = -90.0 + 180.0 * j / rows, el1 = -90.0 + 180.0 * (j + 1) / rows;
+        int begin = 0, level = -1;
+        for (int i = 0; i <= columns; ++i) {
+            double az = -180.0 + 360.0 * (i + 0.5) / columns;
+            int next =
+                i < columns ? level_of(value_at(m, az, 0.5 * (el0 + el1)), scale, levels) : -1;
+            if (next != level && i > 0) {
+                fill_run(-180.0 + 360.0 * begin / columns, -180.0 + 360.0 * i / columns, el0, el1,
+                         (level + 0.5) / levels, mollweide);
+                begin = i;
+            }
+            level = next;
         }
     }
 }
 
-static void shade(const map *m, cli_scale scale) {
-    PLFLT level[LEVELS + 1];
-    double range = scale.high - scale.low;
-    for (int k = 0; k <= LEVELS; ++k) {
-        level[k] = scale.low + range * k / LEVELS;
-    }
-    level[0] -= 1e-9 * range;
-    level[LEVELS] += 1e-9 * range;
-    plpsty(0);
-    colour_cells(m, scale); /* under the shades, whose edges would let the paper shine through */
-    plshades((PLFLT_MATRIX)m->z, m->nx, m->ny, NULL, -180.0, 180.0, -90.0, 90.0, level, LEVELS + 1,
-             0.0, 0, 0.0, plfill, 0, pltr2, (PLPointer)&m->at);
-}
-
 bool cli_figure_map(const cli_panel *panel, const cli_picture *picture, size_t column, size_t row,
-                    cli_scale scale, bool mollweide) {
+                    cli_scale scale, int rows, int levels, bool mollweide) {
     map m;
     map_make(&m, picture->grid[column], picture->field[column][row].value, mollweide);
     cli_figure_colours(scale, scale.low, scale.high);
     plvpor(panel->left, panel->right, panel->bottom, panel->top);
     plwind(-180.0, 180.0, -90.0, 90.0);
-    shade(&m, scale);
+    shade(&m, scale, rows, levels, mollweide);
     draw_contours(&m, scale);
     draw_frame(picture->name[row], mollweide);
     map_free(&m);

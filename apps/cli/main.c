@@ -13,8 +13,9 @@
 #include <string.h>
 
 static const cli_command *const COMMANDS[] = {
-    &cli_command_info,      &cli_command_force, &cli_command_table,   &cli_command_reoptic,
-    &cli_command_convert,   &cli_command_plot,  &cli_command_compare, &cli_command_fit_nplate,
+    &cli_command_info,      &cli_command_force,   &cli_command_table,
+    &cli_command_reoptic,   &cli_command_convert, &cli_command_plot,
+    &cli_command_picture,   &cli_command_compare, &cli_command_fit_nplate,
 #ifdef SRP_CLI_HAS_ORBIT
     &cli_command_propagate,
 #endif

@@ -281,8 +281,8 @@ static int check_shape(const cli_model_options *model, const cli_method_options 
 
 /* ---- choosing ---- */
 
-/* Devices that have a method of this name, with commas; those with a number are only an example of
- * one without. */
+/* Devices that have a method of this name, with commas; those with a number are told of by the
+ * caller. */
 static void name_devices(const char *name, char *names) {
     size_t used = 0;
     const srp_method *method;
@@ -302,8 +302,9 @@ static int refuse_device(const cli_method_options *options) {
     }
     char names[NAMES_SIZE];
     name_devices(options->name, names);
-    return cli_usage_error("method %s is not there for --device %s, only for %s", options->name,
-                           options->device, names);
+    bool numbered = strstr(names, "gl:egl") != NULL;
+    return cli_usage_error("method %s is not there for --device %s, only for %s%s", options->name,
+                           options->device, names, numbered ? " and gl:egl:N, N from 0 to 15" : "");
 }
 
 static int find_method(const cli_method_options *options, const srp_method **method) {

@@ -64,3 +64,9 @@ int cli_text_file_end(cli_text_file *file) {
     free(file->part);
     return status;
 }
+
+void cli_text_file_drop(cli_text_file *file) {
+    (void)fclose(file->out);
+    remove(file->part);
+    free(file->part);
+}

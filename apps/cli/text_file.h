@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Text files that appear whole or not at all. */
+/* Files that appear whole or not at all. */
 #ifndef SRP_CLI_TEXT_FILE_H
 #define SRP_CLI_TEXT_FILE_H
 
@@ -16,6 +16,8 @@ int cli_text_file_begin(cli_text_file *file, const char *path);
 /* Gives the file its name, or removes it when something could not be written. An exit status, said
  * if not CLI_DONE. */
 int cli_text_file_end(cli_text_file *file);
+/* Gives it up: nothing is left of it. */
+void cli_text_file_drop(cli_text_file *file);
 
 /* The name that a file has until it is whole; freed by the caller. NULL without memory. */
 char *cli_part_name(const char *path);

@@ -13,43 +13,39 @@ static const float RECEDE_UNITS = 16.0F;
 static srp_status create_program(srp_gl_canvas *canvas, srp_error *error) {
     static const srp_gl_stage STAGES[] = {{GL_VERTEX_SHADER, &srp_gl_ids_vert},
                                           {GL_FRAGMENT_SHADER, &srp_gl_ids_frag}};
-    static const char *const NAMES[3] = {"along_x", "along_y", "along_z"};
     const srp_gl_functions *gl = &canvas->context->gl;
     srp_status status = srp_gl_program_create(canvas->context, "#version 330 core\n", STAGES, 2,
                                               &canvas->program, error);
     if (status == SRP_OK) {
-        for (int k = 0; k < 3; ++k) {
-            canvas->along[k] = gl->GetUniformLocation(canvas->program, NAMES[k]);
-        }
+        canvas->middle = gl->GetUniformLocation(canvas->program, "middle");
+        canvas->scale = gl->GetUniformLocation(canvas->program, "scale");
         canvas->first = gl->GetUniformLocation(canvas->program, "first");
     }
     return status;
 }
 
-static void create_buffers(srp_gl_canvas *canvas, const float *vertices, size_t count) {
+static void create_buffers(srp_gl_canvas *canvas) {
     const srp_gl_functions *gl = &canvas->context->gl;
     gl->GenVertexArrays(1, &canvas->array);
     gl->BindVertexArray(canvas->array);
     gl->GenBuffers(1, &canvas->vertices);
     gl->BindBuffer(GL_ARRAY_BUFFER, canvas->vertices);
-    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(3 * count * sizeof *vertices), vertices,
-                   GL_STATIC_DRAW);
     gl->EnableVertexAttribArray(0);
     gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, NULL);
     gl->GenBuffers(1, &canvas->indices);
     gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, canvas->indices);
 }
 
-srp_status srp_gl_canvas_create(const srp_gl_context *context, const float *vertices, size_t count,
-                                srp_gl_canvas *out, srp_error *error) {
+srp_status srp_gl_canvas_create(const srp_gl_context *context, srp_gl_canvas *out,
+                                srp_error *error) {
     srp_gl_canvas canvas;
     memset(&canvas, 0, sizeof canvas);
     canvas.context = context;
     srp_status status = create_program(&canvas, error);
     if (status == SRP_OK) {
-        create_buffers(&canvas, vertices, count);
+        create_buffers(&canvas);
         context->gl.GenFramebuffers(1, &canvas.framebuffer);
-        status = srp_gl_context_check(context, "the vertices of the model", error);
+        status = srp_gl_context_check(context, "buffers of triangles", error);
     }
     if (status != SRP_OK) {
         srp_gl_canvas_clear(&canvas);
@@ -126,17 +122,26 @@ void srp_gl_canvas_begin(const srp_gl_canvas *canvas, GLint layer, GLint width, 
     gl->ClearBufferfv(GL_DEPTH, 0, FAR);
 }
 
-void srp_gl_canvas_send(srp_gl_canvas *canvas, const uint32_t *indices, size_t count) {
+/* Into the buffer that is bound there. */
+static void send_buffer(const srp_gl_functions *gl, GLenum target, const void *data, size_t size,
+                        size_t *capacity) {
+    if (size > *capacity) {
+        gl->BufferData(target, (GLsizeiptr)size, data, GL_STREAM_DRAW);
+        *capacity = size;
+    } else if (size > 0) {
+        gl->BufferSubData(target, 0, (GLsizeiptr)size, data);
+    }
+}
+
+void srp_gl_canvas_send(srp_gl_canvas *canvas, const float *vertices, size_t vertex_count,
+                        const uint32_t *indices, size_t index_count) {
     const srp_gl_functions *gl = &canvas->context->gl;
     gl->BindVertexArray(canvas->array);
-    if (count > canvas->index_capacity) {
-        gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *indices), indices,
-                       GL_STREAM_DRAW);
-        canvas->index_capacity = count;
-    } else if (count > 0) {
-        gl->BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, (GLsizeiptr)(count * sizeof *indices),
-                          indices);
-    }
+    gl->BindBuffer(GL_ARRAY_BUFFER, canvas->vertices);
+    send_buffer(gl, GL_ARRAY_BUFFER, vertices, 3 * vertex_count * sizeof *vertices,
+                &canvas->vertex_capacity);
+    send_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, indices, index_count * sizeof *indices,
+                &canvas->index_capacity);
 }
 
 void srp_gl_canvas_draw(const srp_gl_canvas *canvas, const srp_gl_view *view, size_t begin,
@@ -145,9 +150,8 @@ void srp_gl_canvas_draw(const srp_gl_canvas *canvas, const srp_gl_view *view, si
     if (count == 0) {
         return;
     }
-    for (int k = 0; k < 3; ++k) {
-        gl->Uniform4fv(canvas->along[k], 1, view->along[k]);
-    }
+    gl->Uniform2f(canvas->middle, view->middle[0], view->middle[1]);
+    gl->Uniform2f(canvas->scale, view->scale[0], view->scale[1]);
     gl->Uniform1ui(canvas->first, first);
     if (view->recede > 0.0F) {
         gl->Enable(GL_POLYGON_OFFSET_FILL);

@@ -19,24 +19,24 @@ typedef struct srp_gl_canvas {
     const srp_gl_context *context;
     GLuint framebuffer, colour, depth;
     GLuint program, array, vertices, indices;
-    GLint along[3], first; /* places of uniforms */
+    GLint middle, scale, first; /* places of uniforms */
     GLint side, layers;
-    size_t index_capacity;
+    size_t vertex_capacity, index_capacity;
 } srp_gl_canvas;
 
 /* A picture. */
 typedef struct srp_gl_view {
-    /* Vertices p to coordinates within [-1, 1], x, y, and depth with -1 nearest: xyz . p + w. */
-    float along[3][4];
+    float middle[2];     /* x and y of vertices that lie in the middle of the picture */
+    float scale[2];      /* from there to coordinates within [-1, 1] */
     GLint width, height; /* in pixels */
     /* Triangles are drawn as if they were this much further away: what their depth changes by
      * within so many pixels. */
     float recede;
 } srp_gl_view;
 
-/* Copies `count` vertices; there is no layer yet. SRP_NO_MEMORY, SRP_NO_DEVICE. */
-SRP_CHECK srp_status srp_gl_canvas_create(const srp_gl_context *context, const float *vertices,
-                                          size_t count, srp_gl_canvas *out, srp_error *error);
+/* There is no layer and no triangle yet. SRP_NO_MEMORY, SRP_NO_DEVICE. */
+SRP_CHECK srp_status srp_gl_canvas_create(const srp_gl_context *context, srp_gl_canvas *out,
+                                          srp_error *error);
 /* A zeroed canvas is an empty one. */
 void srp_gl_canvas_clear(srp_gl_canvas *canvas);
 
@@ -45,8 +45,10 @@ void srp_gl_canvas_clear(srp_gl_canvas *canvas);
 SRP_CHECK srp_status srp_gl_canvas_resize(srp_gl_canvas *canvas, GLint side, GLint layers,
                                           srp_error *error);
 
-/* Corners of the triangles of all pictures until the next call. */
-void srp_gl_canvas_send(srp_gl_canvas *canvas, const uint32_t *indices, size_t count);
+/* The triangles of all pictures until the next call: vertices (vertex_count, 3), of x, y, and depth
+ * within [-1, 1], -1 nearest; three indices each. Look for errors afterwards. */
+void srp_gl_canvas_send(srp_gl_canvas *canvas, const float *vertices, size_t vertex_count,
+                        const uint32_t *indices, size_t index_count);
 /* Goes to a layer and wipes its pixels [0, width) x [0, height). */
 void srp_gl_canvas_begin(const srp_gl_canvas *canvas, GLint layer, GLint width, GLint height);
 /* Draws triangles [begin, begin + count) there; the number of the first is `first`. */

@@ -8,12 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+typedef srp_gl_function (*finder)(void *user, const char *name);
+
+static srp_gl_function find_by_provider(void *user, const char *name) {
+    const srp_gl_context *context = user;
+    return context->device->provider->find(context->binding, name);
+}
+
 /* False and *missing: the name of the first function that is not there. */
-static bool load(srp_gl_context *context, const char **missing) {
-    const srp_gl_provider *provider = context->device->provider;
+static bool load(srp_gl_context *context, finder find, void *user, const char **missing) {
     *missing = NULL;
 #define LOAD(type, name)                                                                           \
-    context->gl.name = (type)provider->find(context->binding, "gl" #name);                         \
+    context->gl.name = (type)find(user, "gl" #name);                                               \
     *missing = context->gl.name == NULL && *missing == NULL ? "gl" #name : *missing;
     SRP_GL_FUNCTIONS_33(LOAD)
     if (context->computes) {
@@ -29,9 +35,9 @@ static void copy_string(const srp_gl_context *context, GLenum which, char *out, 
 }
 
 /* Loads the functions and asks what the driver offers; the context is current. */
-static srp_status learn(srp_gl_context *context, srp_error *error) {
+static srp_status learn(srp_gl_context *context, finder find, void *user, srp_error *error) {
     const char *missing;
-    if (!load(context, &missing)) {
+    if (!load(context, find, user, &missing)) {
         return srp_fail(error, SRP_NO_DEVICE, "the OpenGL of %s lacks %s", context->device->name,
                         missing);
     }
@@ -55,18 +61,15 @@ static srp_status draw_two_triangles(srp_gl_context *context, srp_error *error) 
                                         {3.0F, -1.0F, -0.5F}, {-1.0F, 0.0F, -0.5F}};
     static const uint32_t INDICES[6] = {0, 1, 2, 3, 4, 5};
     srp_gl_canvas canvas;
-    srp_status status = srp_gl_canvas_create(context, CORNERS[0], 6, &canvas, error);
+    srp_status status = srp_gl_canvas_create(context, &canvas, error);
     if (status != SRP_OK) {
         return status;
     }
-    srp_gl_view view = {
-        .along = {{1.0F, 0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F, 0.0F}},
-        .width = SIDE,
-        .height = SIDE};
+    srp_gl_view view = {.scale = {1.0F, 1.0F}, .width = SIDE, .height = SIDE};
     uint32_t ids[SIDE * SIDE] = {0};
     status = srp_gl_canvas_resize(&canvas, SIDE, 1, error);
     if (status == SRP_OK) {
-        srp_gl_canvas_send(&canvas, INDICES, 6);
+        srp_gl_canvas_send(&canvas, CORNERS[0], 6, INDICES, 6);
         srp_gl_canvas_begin(&canvas, 0, SIDE, SIDE);
         srp_gl_canvas_draw(&canvas, &view, 0, 2, 1);
         srp_gl_canvas_read(&canvas, 0, SIDE, SIDE, ids);
@@ -114,7 +117,7 @@ srp_status srp_gl_context_create(const srp_gl_device *device, srp_gl_context **o
     if (status == SRP_OK) {
         status = srp_gl_context_enter(context, error);
         if (status == SRP_OK) {
-            status = learn(context, error);
+            status = learn(context, find_by_provider, context, error);
             if (status == SRP_OK) {
                 status = draw_two_triangles(context, error);
             }
@@ -124,6 +127,26 @@ srp_status srp_gl_context_create(const srp_gl_device *device, srp_gl_context **o
     if (status != SRP_OK) {
         srp_gl_context_destroy(context);
         return status;
+    }
+    *out = context;
+    return SRP_OK;
+}
+
+srp_status srp_gl_context_adopt(finder find, void *user, srp_gl_context *out, srp_error *error) {
+    static const srp_gl_device CURRENT = {"the current context", NULL, SRP_GL_ANY_DEVICE};
+    srp_gl_context context;
+    memset(&context, 0, sizeof context);
+    context.device = &CURRENT;
+    srp_status status = learn(&context, find, user, error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    GLint major = 0, minor = 0;
+    context.gl.GetIntegerv(GL_MAJOR_VERSION, &major);
+    context.gl.GetIntegerv(GL_MINOR_VERSION, &minor);
+    if (strncmp(context.version, "OpenGL ES", 9) == 0 || major < 3 || (major == 3 && minor < 3)) {
+        return srp_fail(error, SRP_NO_DEVICE, "%s is of version '%s', expected OpenGL 3.3 or later",
+                        CURRENT.name, context.version);
     }
     *out = context;
     return SRP_OK;

@@ -39,6 +39,13 @@ SRP_CHECK srp_status srp_gl_context_create(const srp_gl_device *device, srp_gl_c
 /* Not current. May be NULL. */
 void srp_gl_context_destroy(srp_gl_context *context);
 
+/*
+ * Fills *out for the context that is current, which stays its maker's: it is never entered, left or
+ * destroyed. `find` as in srp/render.h. SRP_NO_DEVICE (a version below 3.3, functions missing).
+ */
+SRP_CHECK srp_status srp_gl_context_adopt(srp_gl_function (*find)(void *user, const char *name),
+                                          void *user, srp_gl_context *out, srp_error *error);
+
 /* Makes it current on this thread, and none again. SRP_NO_DEVICE. */
 SRP_CHECK srp_status srp_gl_context_enter(srp_gl_context *context, srp_error *error);
 void srp_gl_context_leave(srp_gl_context *context);
@@ -47,5 +54,8 @@ void srp_gl_context_leave(srp_gl_context *context);
  * SRP_NO_MEMORY, SRP_NO_DEVICE. */
 SRP_CHECK srp_status srp_gl_context_check(const srp_gl_context *context, const char *what,
                                           srp_error *error);
+
+/* The device of this name; NULL: there is none. */
+const srp_gl_device *srp_gl_device_find(const char *name);
 
 #endif

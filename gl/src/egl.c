@@ -135,20 +135,26 @@ static srp_status open_display(srp_gl_binding *binding, int index, srp_error *er
         }
         if (binding->display == EGL_NO_DISPLAY) {
             return srp_fail(error, SRP_NO_DEVICE,
-                            "EGL finds no GPU and no surfaceless platform that works here; is "
-                            "GALLIUM_DRIVER or EGL_PLATFORM set to something that is not there?");
+                            "EGL finds no GPU and no surfaceless platform that works here: the "
+                            "driver of the GPU is missing, and so are Mesa's (Debian package "
+                            "libgl1-mesa-dri), or GALLIUM_DRIVER or LIBGL_DRIVERS_PATH name "
+                            "something else");
         }
         return SRP_OK;
     }
     EGLDeviceEXT devices[DEVICES_MAX];
     EGLint count = list_devices(binding, devices);
     if (index >= count) {
-        return srp_fail(error, SRP_NO_DEVICE, "EGL has %d devices here, there is no number %d",
-                        (int)count, index);
+        return srp_fail(error, SRP_NO_DEVICE,
+                        "devices that EGL lists here: %d; there is no number %d", (int)count,
+                        index);
     }
     binding->display = display_of(binding, EGL_PLATFORM_DEVICE_EXT, devices[index]);
     if (binding->display == EGL_NO_DISPLAY) {
-        return srp_fail(error, SRP_NO_DEVICE, "EGL cannot use its device %d", index);
+        return srp_fail(error, SRP_NO_DEVICE,
+                        "EGL cannot use its device %d: its driver is not there (for a software "
+                        "renderer the Debian package libgl1-mesa-dri)",
+                        index);
     }
     return SRP_OK;
 }
@@ -173,12 +179,26 @@ static srp_status create_context(srp_gl_binding *binding, int major, int minor, 
     return SRP_OK;
 }
 
+/* Mesa's virpipe draws in another process, and aborts this one when there is none. */
+static srp_status check_driver(srp_error *error) {
+    const char *driver = getenv("GALLIUM_DRIVER");
+    if (driver != NULL && strcmp(driver, "virpipe") == 0) {
+        return srp_fail(error, SRP_NO_DEVICE,
+                        "GALLIUM_DRIVER is 'virpipe', which draws in another process; unset it");
+    }
+    return SRP_OK;
+}
+
 static srp_status create(int index, int major, int minor, srp_gl_binding **out, srp_error *error) {
+    srp_status status = check_driver(error);
+    if (status != SRP_OK) {
+        return status;
+    }
     srp_gl_binding *binding = calloc(1, sizeof *binding);
     if (binding == NULL) {
         return srp_fail(error, SRP_NO_MEMORY, "no memory for EGL");
     }
-    srp_status status = open_library(binding, error);
+    status = open_library(binding, error);
     if (status == SRP_OK) {
         status = open_display(binding, index, error);
     }

@@ -53,6 +53,21 @@
     X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                                       \
     X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                     \
     X(PFNGLTEXBUFFERPROC, TexBuffer)                                                               \
+    X(PFNGLCULLFACEPROC, CullFace)                                                                 \
+    X(PFNGLFRONTFACEPROC, FrontFace)                                                               \
+    X(PFNGLPOLYGONMODEPROC, PolygonMode)                                                           \
+    X(PFNGLBLENDFUNCPROC, BlendFunc)                                                               \
+    X(PFNGLBLENDEQUATIONPROC, BlendEquation)                                                       \
+    X(PFNGLDEPTHMASKPROC, DepthMask)                                                               \
+    X(PFNGLDEPTHRANGEPROC, DepthRange)                                                             \
+    X(PFNGLCOLORMASKPROC, ColorMask)                                                               \
+    X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                             \
+    X(PFNGLUNIFORM1FPROC, Uniform1f)                                                               \
+    X(PFNGLUNIFORM2FPROC, Uniform2f)                                                               \
+    X(PFNGLVERTEXATTRIBIPOINTERPROC, VertexAttribIPointer)                                         \
+    X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                                             \
+    X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                                                   \
+    X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample)                     \
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                         \
     X(PFNGLCREATESHADERPROC, CreateShader)                                                         \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                         \

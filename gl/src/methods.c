@@ -24,7 +24,15 @@
     X(egl_4, "gl:egl:4", egl, 4)                                                                   \
     X(egl_5, "gl:egl:5", egl, 5)                                                                   \
     X(egl_6, "gl:egl:6", egl, 6)                                                                   \
-    X(egl_7, "gl:egl:7", egl, 7)
+    X(egl_7, "gl:egl:7", egl, 7)                                                                   \
+    X(egl_8, "gl:egl:8", egl, 8)                                                                   \
+    X(egl_9, "gl:egl:9", egl, 9)                                                                   \
+    X(egl_10, "gl:egl:10", egl, 10)                                                                \
+    X(egl_11, "gl:egl:11", egl, 11)                                                                \
+    X(egl_12, "gl:egl:12", egl, 12)                                                                \
+    X(egl_13, "gl:egl:13", egl, 13)                                                                \
+    X(egl_14, "gl:egl:14", egl, 14)                                                                \
+    X(egl_15, "gl:egl:15", egl, 15)
 
 /* A method on a device: function(s) of methods.h for what, and what it says of itself. */
 #define METHOD(id, text, what, about, can)                                                         \
@@ -67,19 +75,27 @@ const srp_method *const *srp_gl_method_list(size_t *count) {
     return METHODS;
 }
 
-srp_status srp_gl_device_describe(const char *device, srp_gl_description *out, srp_error *error) {
+const srp_gl_device *srp_gl_device_find(const char *name) {
     for (size_t k = 0; k < sizeof DEVICE_LIST / sizeof DEVICE_LIST[0]; ++k) {
-        if (strcmp(DEVICE_LIST[k]->name, device) == 0) {
-            srp_gl_context *context = NULL;
-            srp_status status = srp_gl_context_create(DEVICE_LIST[k], &context, error);
-            if (status == SRP_OK) {
-                (void)snprintf(out->renderer, sizeof out->renderer, "%s", context->renderer);
-                (void)snprintf(out->version, sizeof out->version, "%s", context->version);
-                out->computes = context->computes;
-                srp_gl_context_destroy(context);
-            }
-            return status;
+        if (strcmp(DEVICE_LIST[k]->name, name) == 0) {
+            return DEVICE_LIST[k];
         }
     }
-    return srp_fail(error, SRP_NOT_FOUND, "no device '%.60s'", device);
+    return NULL;
+}
+
+srp_status srp_gl_device_describe(const char *device, srp_gl_description *out, srp_error *error) {
+    const srp_gl_device *found = srp_gl_device_find(device);
+    if (found == NULL) {
+        return srp_fail(error, SRP_NOT_FOUND, "no device '%.60s'", device);
+    }
+    srp_gl_context *context = NULL;
+    srp_status status = srp_gl_context_create(found, &context, error);
+    if (status == SRP_OK) {
+        (void)snprintf(out->renderer, sizeof out->renderer, "%s", context->renderer);
+        (void)snprintf(out->version, sizeof out->version, "%s", context->version);
+        out->computes = context->computes;
+        srp_gl_context_destroy(context);
+    }
+    return status;
 }

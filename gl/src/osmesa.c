@@ -23,6 +23,9 @@ enum {
 /* OSMesa wants a colour buffer, though all that is drawn goes elsewhere. */
 enum { BUFFER_SIDE = 16 };
 
+/* Version of the shading language that our shaders are written in, times 100. */
+enum { GLSL_MIN = 330 };
+
 typedef void *(*create_function)(const int *attributes, void *shared);
 typedef unsigned char (*enter_function)(void *context, void *buffer, unsigned type, int width,
                                         int height);
@@ -48,7 +51,7 @@ static void destroy(srp_gl_binding *binding) {
 }
 
 /* Mesa takes the name of its driver from the environment, and dereferences NULL when there is none
- * of that name. */
+ * of that name; likewise when its shading language is said to be too old for a core context. */
 static srp_status check_driver(srp_error *error) {
     const char *driver = getenv("GALLIUM_DRIVER");
     if (driver != NULL && strcmp(driver, "") != 0 && strcmp(driver, "llvmpipe") != 0 &&
@@ -58,6 +61,12 @@ static srp_status check_driver(srp_error *error) {
             "GALLIUM_DRIVER is '%.60s', but OSMesa draws with llvmpipe or softpipe only; "
             "unset it",
             driver);
+    }
+    const char *language = getenv("MESA_GLSL_VERSION_OVERRIDE");
+    if (language != NULL && strtol(language, NULL, 10) < GLSL_MIN) {
+        return srp_fail(error, SRP_NO_DEVICE,
+                        "MESA_GLSL_VERSION_OVERRIDE is '%.60s', expected %d or more; unset it",
+                        language, GLSL_MIN);
     }
     return SRP_OK;
 }

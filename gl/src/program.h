@@ -12,6 +12,7 @@ typedef struct srp_gl_source {
 } srp_gl_source;
 
 extern const srp_gl_source srp_gl_ids_vert, srp_gl_ids_frag, srp_gl_bounce_comp;
+extern const srp_gl_source srp_gl_render_vert, srp_gl_render_frag;
 
 typedef struct srp_gl_stage {
     GLenum kind; /* GL_VERTEX_SHADER, ... */

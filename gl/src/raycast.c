@@ -5,8 +5,9 @@
  * The lattice is the processor's (lattice.h), a sample is the centre of a cell, and what follows
  * from the counts is the same code (raycast_answer.h): only which facet a sample sees is found out
  * by the GPU, with a depth buffer. Numbers of facets come back, not floats. The processor projects
- * the mesh in double precision and leaves out what faces away or lies between samples; the GPU
- * turns vertices in float.
+ * the mesh in double precision and leaves out what faces away or lies between samples; the GPU gets
+ * vertices in samples, so that what float rounds is small beside a cell, whatever the shape of the
+ * model.
  *
  * GPUs place vertices to 1/256 of a pixel. To have them placed to 1/512 of a cell, each cell is two
  * pixels wide and high. Its sample is the centre of the first; the other three are not used.
@@ -52,7 +53,6 @@ typedef struct raycast {
     srp_gl_pool pool;
     srp_raster_mesh mesh;
     double *lever2;
-    float *vertices; /* (3 vertex_count) about the scene's centre, in units of its radius */
     srp_gl_raycast_watcher watch; /* NULL but in tests */
     void *user;
 } raycast;
@@ -62,7 +62,6 @@ typedef struct shot {
     srp_raster_frame frame;
     size_t turned; /* facets of the frame that are turned to the Sun: the first */
     size_t begin;  /* of its triangles among those that were sent */
-    double far, near;
     srp_raster_tally *tally;
     srp_push *push;
     size_t capacity; /* of both */
@@ -82,10 +81,11 @@ typedef struct piece {
 typedef struct raycast_worker {
     srp_gl_worker head;
     srp_gl_canvas canvas;
-    int32_t side;  /* of a layer [samples] */
-    uint32_t *ids; /* (canvas.layers, canvas.side^2) pixels, packed to samples row by row */
+    int32_t side;    /* of a layer [samples] */
+    uint32_t *ids;   /* (canvas.layers, canvas.side^2) pixels, packed to samples row by row */
+    float *vertices; /* of all open directions, one after the other */
     uint32_t *indices;
-    size_t index_capacity;
+    size_t vertex_capacity, index_capacity;
     size_t shot_count;
     shot *shots;
     shot **open;                  /* (shot_count) those that need another round */
@@ -117,6 +117,7 @@ static void clear_worker(srp_gl_worker *worker) {
     free(own->shots);
     free(own->open);
     free(own->ids);
+    free(own->vertices);
     free(own->indices);
 }
 
@@ -138,10 +139,8 @@ static bool fill_shots(const raycast *state, raycast_worker *own, size_t count) 
 
 static srp_status fill_worker(const srp_prepared *prepared, srp_gl_worker *worker,
                               srp_error *error) {
-    const raycast *state = (const raycast *)prepared;
     raycast_worker *own = (raycast_worker *)worker;
-    srp_status status = srp_gl_canvas_create(worker->context, state->vertices,
-                                             state->mesh.vertex_count, &own->canvas, error);
+    srp_status status = srp_gl_canvas_create(worker->context, &own->canvas, error);
     if (status != SRP_OK) {
         return status;
     }
@@ -230,70 +229,87 @@ static bool aim(const raycast *state, shot *of, srp_vec3 s) {
     srp_raster_frame *frame = &of->frame;
     srp_raycast_set_up_frame(&state->head, frame, s, of->refine);
     list_facets(of);
-    of->far = INFINITY;
-    of->near = -INFINITY;
-    for (size_t i = 0; i < state->mesh.vertex_count; ++i) {
-        double h = frame->depth[i];
-        of->far = h < of->far ? h : of->far;
-        of->near = h > of->near ? h : of->near;
-    }
     return begin_count(of);
 }
 
-static bool send_triangles(raycast_worker *own, size_t open_count) {
-    size_t count = 0;
+/* Vertices as the GPU takes them: in samples, and in depth with some room in its range. */
+static void write_vertices(const srp_raster_frame *frame, double radius, float *out) {
+    size_t count = frame->mesh->vertex_count;
+    double far = INFINITY, near = -INFINITY;
+    for (size_t i = 0; i < count; ++i) {
+        far = fmin(far, frame->depth[i]);
+        near = fmax(near, frame->depth[i]);
+    }
+    /* A sheet that faces the Sun has no depth at all. */
+    double range = fmax(near - far, 1e-6 * radius), middle = 0.5 * (near + far), room = 1.98;
+    for (size_t i = 0; i < count; ++i) {
+        out[3 * i] = (float)frame->x[i];
+        out[3 * i + 1] = (float)frame->y[i];
+        out[3 * i + 2] = (float)(room * (middle - frame->depth[i]) / range);
+    }
+}
+
+/* `first`: number of the direction's first vertex. */
+static void write_indices(const srp_raster_frame *frame, uint32_t first, uint32_t *out) {
+    for (size_t n = 0; n < frame->facet_count; ++n) {
+        const uint32_t *v = frame->mesh->v[frame->facet[n]];
+        for (int corner = 0; corner < 3; ++corner) {
+            *out++ = first + v[corner];
+        }
+    }
+}
+
+/* Room for `count` objects of `size` bytes in place of an array; what it holds may be lost. NULL:
+ * no memory. */
+static void *make_room(void *array, size_t *capacity, size_t count, size_t size) {
+    if (array != NULL && count <= *capacity) {
+        return array;
+    }
+    free(array);
+    array = malloc((count > 0 ? count : 1) * size);
+    *capacity = array != NULL ? count : 0;
+    return array;
+}
+
+static bool send_triangles(const raycast *state, raycast_worker *own, size_t open_count) {
+    size_t vertex_count = state->mesh.vertex_count, count = 0;
     for (size_t k = 0; k < open_count; ++k) {
         own->open[k]->begin = count;
         count += own->open[k]->frame.facet_count;
     }
-    if (count > own->index_capacity) {
-        free(own->indices);
-        own->index_capacity = 0;
-        own->indices = malloc(3 * count * sizeof *own->indices);
-        if (own->indices == NULL) {
-            return false;
-        }
-        own->index_capacity = count;
+    own->indices = make_room(own->indices, &own->index_capacity, 3 * count, sizeof *own->indices);
+    own->vertices = make_room(own->vertices, &own->vertex_capacity, 3 * open_count * vertex_count,
+                              sizeof *own->vertices);
+    if (own->indices == NULL || own->vertices == NULL) {
+        return false;
     }
+    int threads = state->head.params.threads;
+    (void)threads; /* without OpenMP */
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
     for (size_t k = 0; k < open_count; ++k) {
         const shot *of = own->open[k];
-        for (size_t n = 0; n < of->frame.facet_count; ++n) {
-            memcpy(&own->indices[3 * (of->begin + n)], of->frame.mesh->v[of->frame.facet[n]],
-                   3 * sizeof *own->indices);
-        }
+        write_vertices(&of->frame, state->head.scene->radius, own->vertices + 3 * k * vertex_count);
+        write_indices(&of->frame, (uint32_t)(k * vertex_count), own->indices + 3 * of->begin);
     }
-    srp_gl_canvas_send(&own->canvas, own->indices, 3 * count);
+    srp_gl_canvas_send(&own->canvas, own->vertices, open_count * vertex_count, own->indices,
+                       3 * count);
     return true;
 }
 
-/* One row of a transform: out = scale (axis . p) + shift, for p in units of the model's radius. */
-static void set_row(float row[4], const srp_scene *scene, srp_vec3 axis, double scale,
-                    double shift) {
-    row[0] = (float)(scale * scene->radius * axis.x);
-    row[1] = (float)(scale * scene->radius * axis.y);
-    row[2] = (float)(scale * scene->radius * axis.z);
-    row[3] = (float)(scale * srp_vec3_dot(axis, scene->centre) + shift);
-}
-
-static srp_gl_view view_of(const srp_scene *scene, const piece *at) {
-    const srp_lattice *lattice = &at->of->frame.lattice;
+static srp_gl_view view_of(const piece *at) {
     srp_gl_view view = {.width = FINE * at->width, .height = FINE * at->height};
-    /* A sample is the middle of a pixel: 0 lies half a pixel from the left edge, which is at -1. */
-    double per_u = 2.0 / (at->width * lattice->du), per_v = 2.0 / (at->height * lattice->dv);
-    set_row(view.along[0], scene, lattice->view.u, per_u,
-            -per_u * lattice->u0 + (1.0 / FINE - 2.0 * at->column) / at->width - 1.0);
-    set_row(view.along[1], scene, lattice->view.v, per_v,
-            -per_v * lattice->v0 + (1.0 / FINE - 2.0 * at->row) / at->height - 1.0);
-    /* Within the depth range with some room; a sheet that faces the Sun has no depth at all. */
-    double range = fmax(at->of->near - at->of->far, 1e-6 * scene->radius), room = 1.98;
-    double middle = 0.5 * (at->of->near + at->of->far);
-    set_row(view.along[2], scene, lattice->view.s, -room / range, room * middle / range);
+    /* A sample is the middle of a pixel: 0 lies half a pixel from the left edge. */
+    const double half_pixel = 0.5 / FINE;
+    view.middle[0] = (float)(at->column + 0.5 * at->width - half_pixel);
+    view.middle[1] = (float)(at->row + 0.5 * at->height - half_pixel);
+    view.scale[0] = (float)(2.0 / at->width);
+    view.scale[1] = (float)(2.0 / at->height);
     return view;
 }
 
-static void draw_piece(const srp_scene *scene, const raycast_worker *own, const piece *at) {
+static void draw_piece(const raycast_worker *own, const piece *at) {
     const shot *of = at->of;
-    srp_gl_view view = view_of(scene, at);
+    srp_gl_view view = view_of(at);
     srp_gl_canvas_draw(&own->canvas, &view, of->begin, of->turned, 1);
     view.recede = BACK_RECEDES;
     srp_gl_canvas_draw(&own->canvas, &view, of->begin + of->turned,
@@ -411,7 +427,7 @@ static srp_status add_piece(const raycast *state, raycast_worker *own, size_t op
     if (status == SRP_OK) {
         srp_gl_canvas_begin(&own->canvas, (GLint)own->piece_count, FINE * at->width,
                             FINE * at->height);
-        draw_piece(state->head.scene, own, at);
+        draw_piece(own, at);
         own->pieces[own->piece_count++] = *at;
     }
     return status;
@@ -474,7 +490,7 @@ static srp_status run_round(const raycast *state, raycast_worker *own, const srp
     for (size_t k = 0; k < *open_count; ++k) {
         failed = failed || !aim(state, own->open[k], s[own->open[k]->index]);
     }
-    if (failed || !send_triangles(own, *open_count)) {
+    if (failed || !send_triangles(state, own, *open_count)) {
         return srp_fail(error, SRP_NO_MEMORY, "no memory for the %s method",
                         state->head.method->name);
     }
@@ -543,20 +559,7 @@ void srp_gl_raycast_release(srp_prepared *prepared) {
     srp_gl_pool_clear(&state->pool);
     srp_raster_mesh_clear(&state->mesh);
     free(state->lever2);
-    free(state->vertices);
     free(state);
-}
-
-static float *shrink_vertices(const srp_scene *scene) {
-    float *out = malloc(3 * scene->vertex_count * sizeof *out);
-    for (size_t i = 0; out != NULL && i < scene->vertex_count; ++i) {
-        srp_vec3 p =
-            srp_vec3_scale(1.0 / scene->radius, srp_vec3_sub(scene->vertices[i], scene->centre));
-        out[3 * i] = (float)p.x;
-        out[3 * i + 1] = (float)p.y;
-        out[3 * i + 2] = (float)p.z;
-    }
-    return out;
 }
 
 srp_status srp_gl_raycast_prepare(const srp_method *method, const srp_gl_device *device,
@@ -577,9 +580,7 @@ srp_status srp_gl_raycast_prepare(const srp_method *method, const srp_gl_device 
     state->pool.kind = &WORKER;
     state->pool.prepared = &state->head;
     state->lever2 = srp_raycast_measure_levers(scene, params->reference);
-    state->vertices = shrink_vertices(scene);
-    if (state->lever2 == NULL || state->vertices == NULL ||
-        !srp_raster_mesh_create(&state->mesh, scene)) {
+    if (state->lever2 == NULL || !srp_raster_mesh_create(&state->mesh, scene)) {
         srp_gl_raycast_release(&state->head);
         goto fail;
     }

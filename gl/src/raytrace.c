@@ -376,6 +376,14 @@ static srp_status take_over(srp_prepared *prepared, const srp_gl_device *device,
     return status == SRP_OK ? srp_gl_pool_warm_up(&state->pool, error) : status;
 }
 
+/* A device that is not there is told of, though there are no rays for it. */
+static srp_status try_device(const srp_gl_device *device, srp_error *error) {
+    srp_gl_context *context = NULL;
+    srp_status status = srp_gl_context_create(device, &context, error);
+    srp_gl_context_destroy(context);
+    return status;
+}
+
 srp_status srp_gl_raytrace_prepare(const srp_method *method, const srp_gl_device *device,
                                    const srp_scene *scene, const srp_method_params *params,
                                    srp_prepared **out, srp_error *error) {
@@ -385,9 +393,8 @@ srp_status srp_gl_raytrace_prepare(const srp_method *method, const srp_gl_device
         return status;
     }
     prepared->method = method;
-    if (srp_raytrace_world(prepared) != NULL) {
-        status = take_over(prepared, device, error);
-    }
+    status = srp_raytrace_world(prepared) != NULL ? take_over(prepared, device, error)
+                                                  : try_device(device, error);
     if (status != SRP_OK) {
         srp_gl_raytrace_release(prepared);
         return status;

@@ -46,6 +46,17 @@ void srp_raycast_set_up_frame(const srp_prepared *prepared, srp_raster_frame *fr
 
 /* ---- sums ---- */
 
+/* Height of a facet's samples in the mean, at the mean sample. OpenGL may see a facet from a sample
+ * that only comes close to it, where the plane of one that light grazes is anywhere: no sample is
+ * higher or lower than the corners. */
+static double mean_height(const srp_raster_frame *frame, uint32_t facet, double i, double j) {
+    const uint32_t *v = frame->mesh->v[facet];
+    double a = frame->depth[v[0]], b = frame->depth[v[1]], c = frame->depth[v[2]];
+    srp_raster_plane plane = srp_raster_frame_plane(frame, facet, v[0]);
+    double height = plane.at + i * plane.along_i + j * plane.along_j;
+    return fmax(fmin(a, fmin(b, c)), fmin(fmax(a, fmax(b, c)), height));
+}
+
 /* Adds what was counted to the sums per material. */
 static void add_facets(const srp_prepared *prepared, const srp_raycast_count *count,
                        srp_basis *basis) {
@@ -59,13 +70,12 @@ static void add_facets(const srp_prepared *prepared, const srp_raycast_count *co
         }
         uint32_t facet = frame->facet[k];
         srp_raster_side side = srp_raster_frame_side(frame, facet);
-        srp_raster_plane plane = srp_raster_frame_plane(frame, facet, frame->mesh->v[facet][0]);
         double per_sample = 1.0 / (double)tally->n;
         double i = (double)tally->i * per_sample, j = (double)tally->j * per_sample;
-        srp_vec3 centroid = srp_view_lift(
-            &lattice->view,
-            srp_vec3_make(lattice->u0 + i * lattice->du, lattice->v0 + j * lattice->dv,
-                          plane.at + i * plane.along_i + j * plane.along_j));
+        srp_vec3 centroid =
+            srp_view_lift(&lattice->view, srp_vec3_make(lattice->u0 + i * lattice->du,
+                                                        lattice->v0 + j * lattice->dv,
+                                                        mean_height(frame, facet, i, j)));
         srp_basis_add(&basis[side.surface->row], (double)tally->n * cell, side.cosine, side.normal,
                       srp_vec3_sub(centroid, prepared->params.reference));
     }

@@ -54,7 +54,7 @@ offers 'd.plates' srp force --plates = d
 offers '' srp nocommand ''
 
 # Every option of every command.
-for command in info force table reoptic convert plot compare fit-nplate cache; do
+for command in info force table reoptic convert plot picture compare fit-nplate cache; do
     expect 0 "$command" --help
     grep -oE -- '^ {2,6}(-[a-z], )?--[a-z-]+' ../log/out | grep -oE -- '--[a-z-]+' > options
     while read -r option; do

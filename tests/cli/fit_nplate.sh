@@ -109,11 +109,11 @@ expect 1 fit-nplate good.nc --normals none.txt
 says 'none.txt: cannot read'
 printf '1 0 0\n0 0 0\n' > zero.txt
 expect 1 fit-nplate good.nc --normals zero.txt
-says 'zero.txt:2: expected the three numbers of a normal'
+says 'zero.txt:2: expected the three finite numbers of a normal'
 for bad in '1 0' '1 0 0 0' '1 0 x' 'nan 0 0'; do
     echo "$bad" > bad.txt
     expect 1 fit-nplate good.nc --normals bad.txt
-    says 'bad.txt:1: expected the three numbers of a normal'
+    says 'bad.txt:1: expected the three finite numbers of a normal'
 done
 echo '# nothing' > empty.txt
 expect 1 fit-nplate good.nc --normals empty.txt

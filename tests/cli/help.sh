@@ -3,7 +3,7 @@
 # --help and --version of everything: on stdout, status 0, 80 columns.
 . "$(dirname "$0")/lib.sh"
 
-commands='info force table reoptic convert plot compare fit-nplate cache'
+commands='info force table reoptic convert plot picture compare fit-nplate cache'
 
 expect 0 --help
 prints 'Usage: srp COMMAND'

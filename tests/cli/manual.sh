@@ -16,7 +16,7 @@ else
     sed 's/\\-/-/g; s/Fl -/--/; s/Fl /-/' srp.1 > page
 fi
 
-for command in info force table reoptic convert plot compare fit-nplate; do
+for command in info force table reoptic convert plot picture compare fit-nplate; do
     expect 0 "$command" --help
     grep -oE -- '^ {2,6}(-[a-z], )?--[a-z-]+' ../log/out | grep -oE -- '--[a-z-]+' > options
     [ "$(wc -l < options)" -ge 3 ] || fail "no options found in the help of $command"

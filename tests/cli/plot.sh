@@ -64,6 +64,17 @@ if [ "$renew" != --renew ]; then
         fail 'pages of different sizes look alike'
 fi
 
+# However fine the table is, files stay of a size that a browser opens.
+expect 0 table "$MODELS/cube.obj" -o fine.nc --step 1
+expect 0 plot fine.nc -o fine.svg
+expect 0 plot fine.nc -o fine-map.svg --map
+expect 0 plot fine.nc -o fine-map.pdf --map
+for limit in fine.svg=4000000 fine-map.svg=16000000 fine-map.pdf=4000000; do
+    size=$(wc -c < "${limit%=*}")
+    echo "${limit%=*}: $size bytes"
+    [ "$size" -lt "${limit#*=}" ] || fail "${limit%=*} has $size bytes"
+done
+
 # Formats are valid, text is text, the same command gives the same picture.
 expect 0 plot box.nc -o a.svg
 prints 'a.svg'
@@ -93,6 +104,42 @@ expect 0 plot box.nc -o quotes.svg --title 'A #title with 50 % <signs> & "quotes
 ! command -v xmllint > /dev/null || xmllint --noout quotes.svg || fail 'a title breaks the SVG'
 # The standard size is 1200 pixels: bytes 16 to 23 of a PNG.
 [ "$(od -An -tu1 -j16 -N4 a.png | awk '{ print $3 * 256 + $4 }')" -eq 1200 ] || fail 'not 1200 wide'
+
+# Titles and names of any length and letters stay on the page: first smaller, then without their middle.
+mkdir 'a ü'
+long=$(printf 'a long title %.0s' {1..40})
+expect 0 plot box.nc -o 'a ü/☀ #1.pdf' --title "Anfang ☀ $long Ende"
+silent
+if command -v pdftotext > /dev/null; then
+    pdftotext 'a ü/☀ #1.pdf' - 2> ../log/err > words
+    for word in 'Anfang' '…' 'Ende'; do
+        grep -q "$word" words || fail "the long title lacks $word"
+    done
+    expect 0 plot box.nc -o fits.pdf --title "${long:0:120}"
+    pdftotext fits.pdf - | grep -q '…' && fail 'a title that fits is cut'
+fi
+cp box.nc 'tä ble #d.nc'
+expect 0 plot 'tä ble #d.nc' plates.nc -o two.png
+silent
+name=$(printf 'y%.0s' {1..251}).png # there is no room for what it is called until it is whole
+expect 3 plot box.nc -o "$name"
+says "$name: cannot write: "
+[ "$(wc -l < ../log/err)" -eq 1 ] || fail 'more than one message'
+
+# Tables of two by two nodes, of one value, of 0, and with a hole.
+expect 0 table "$MODELS/cube.obj" -o least.nc --az-step 360 --el-step 180
+for how in '' --map; do
+    # shellcheck disable=SC2086
+    expect 0 plot least.nc -o least.png $how
+    silent
+done
+expect 0 table --method cannonball --cr 0 --area 2 -o none.nc --step 30
+expect 1 plot none.nc -o x.png
+says 'none.nc: the force is 0 from all directions'
+expect 0 convert box.nc hole.txt --mass 3
+sed -i '40s/[^ ]*$/nan/' hole.txt
+expect 1 plot hole.txt -o x.png
+says "hole.txt:40:"
 
 # What replaces a figure is whole; what fails leaves the old one.
 cp a.png keep.png

@@ -7,6 +7,7 @@
 #include "progress.h"
 #include "srp_check.h"
 #include "suggest.h"
+#include "svg_compact.h"
 #include "utf8.h"
 
 #include <string.h>
@@ -265,6 +266,59 @@ START_TEST(colours_go_there_and_back) {
 }
 END_TEST
 
+static const char *compacted(const char *line) {
+    static char text[1000];
+    snprintf(text, sizeof text, "%s\n", line);
+    size_t size = cli_svg_compact(text, strlen(text));
+    ck_assert_uint_gt(size, 0);
+    ck_assert(text[size - 1] == '\n');
+    text[size - 1] = '\0';
+    return text;
+}
+
+#define DULL "stroke-width:1;stroke-linecap:butt;stroke-linejoin:bevel;"
+#define TAIL "stroke-opacity:1;stroke-miterlimit:10;"
+
+START_TEST(svg_says_the_same_in_less) {
+    /* A piece of a surface, counted from below in a picture 960 high. */
+    ck_assert_str_eq(
+        compacted("<path style=\"fill-rule:nonzero;fill:rgb(47.843137%,46.666667%,79.215686%);"
+                  "fill-opacity:1;" DULL "stroke:rgb(100%,0%,0.4%);" TAIL
+                  "\" d=\"M 269.722656 661.800781 L 268.148438 659.015625 L 960.004 960.001 \" "
+                  "transform=\"matrix(1,0,0,-1,0,960)\"/>"),
+        "<path style=\"fill:#7a77ca;stroke-linejoin:bevel;stroke:#ff0001\" "
+        "d=\"M269.72 298.2 268.15 300.98 960 0\"/>");
+    /* Upright; two strokes; a width that is not the usual one. */
+    ck_assert_str_eq(compacted("<path style=\"fill:none;stroke-width:0.5;stroke:rgb(0%,0%,0%);\" "
+                               "d=\"M 1 2 L 3.5 4 M -0.001 -5.126 L 100 200\"/>"),
+                     "<path style=\"fill:none;stroke-width:0.5;stroke:#000000\" d=\"M1 2 3.5 4M0 "
+                     "-5.13 100 200\"/>");
+    /* What cannot be told to mean the same stays: curves, other transforms, clips, other lines. */
+    static const char *const kept[] = {
+        "<path style=\"stroke:none;\" d=\"M 0.921875 3.25 C 1 2 3 4 5 6 Z M 1.953125 2.234375 \"/>",
+        "<path style=\"fill:none;stroke-opacity:1;\" d=\"M 1 2 L 3 4 \" "
+        "transform=\"matrix(2,0,0,-1,0,960)\"/>",
+        "<path style=\"fill:none;stroke-opacity:1;\" d=\"M 1 2 L 3 4 \" "
+        "transform=\"matrix(1,0,0,-1,0,960) scale(2)\"/>",
+        "<path style=\"fill:none;stroke-opacity:1;\" clip-path=\"url(#c)\" d=\"M 1 2 L 3 4 \"/>",
+        "<path style=\"fill:none;stroke-opacity:1;\" d=\"M 1 2 L 3 \"/>",
+        "<path style=\"fill:none;stroke-opacity:1;\" d=\"M 1 2 L 3 4 \"",
+        "<path",
+        "<use xlink:href=\"#glyph0-1\" x=\"1.0000\" y=\"2.0000\"/>",
+        "",
+    };
+    for (size_t k = 0; k < sizeof kept / sizeof kept[0]; ++k) {
+        ck_assert_str_eq(compacted(kept[k]), kept[k]);
+    }
+    /* Without a break at the end, and more than one line. */
+    char two[] = "<svg>\n<path style=\"fill-opacity:1;\" d=\"M 1.500000 2 L 3 4 \"/>\n</svg>";
+    size_t size = cli_svg_compact(two, strlen(two));
+    two[size] = '\0';
+    ck_assert_str_eq(two, "<svg>\n<path style=\"\" d=\"M1.5 2 3 4\"/>\n</svg>");
+    ck_assert(!cli_svg_compact_file("no/such.svg"));
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("cli_parts");
     TCase *tcase = tcase_create("cli_parts");
@@ -280,6 +334,7 @@ int main(void) {
     tcase_add_test(tcase, palettes_are_even_to_the_eye);
     tcase_add_test(tcase, colours_go_there_and_back);
     tcase_add_test(tcase, progress_tells_the_time_left);
+    tcase_add_test(tcase, svg_says_the_same_in_less);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);
 }

@@ -8,7 +8,7 @@
 #   ```console   is a session: commands after "$ " and, below each, all that it says on stdout and
 #                stderr; a line "..." stands for any text;
 #   ```sh needs-WORD, ```console needs-WORD are skipped when the variable LACKS has that word: what this
-#                build is without (figures, fit);
+#                build is without (figures, pictures, fit);
 #   ```sh no-run, ```console no-run and every other kind of block are only shown.
 # The blocks of one document run in order in one scratch directory, where `models` is ours. Links to
 # files of the repository must lead somewhere.

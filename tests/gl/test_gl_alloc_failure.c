@@ -5,6 +5,8 @@
 #include "shapes.h"
 #include "srp_check.h"
 
+#include <srp/render.h>
+
 #include <stdatomic.h>
 
 void *__real_malloc(size_t size);
@@ -77,6 +79,20 @@ static srp_status try_method(const srp_method *method, const srp_scene *scene, s
     return status;
 }
 
+static srp_status try_picture(const srp_scene *scene, srp_error *error) {
+    static uint8_t pixels[32 * 32 * 4];
+    uint8_t *out = pixels;
+    const srp_render_arrow arrow = {.to = {3, 2, 1}};
+    srp_render_view view = srp_render_view_default();
+    view.width = view.height = 32;
+    view.camera = srp_render_camera_fit(scene, 0.5, 0.25, 1.0);
+    view.sun = srp_vec3_make(0.48, 0.6, 0.64);
+    view.arrows = &arrow;
+    view.arrow_count = 1;
+    return srp_render_offscreen(gl_device_name, scene, &view, 1, &out, error);
+}
+
+/* Of a method, or of pictures when `name` is NULL. */
 static void exhaust(const char *name) {
     const srp_vec3 v[] = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}};
     const srp_triangle t[] = {{{0, 1, 2}}, {{0, 3, 1}}};
@@ -90,16 +106,18 @@ static void exhaust(const char *name) {
         long before = atomic_load(&held);
         atomic_store(&until_failure, count);
         atomic_store(&armed, true);
-        status = try_method(gl_method(name), scene, &error);
+        status =
+            name != NULL ? try_method(gl_method(name), scene, &error) : try_picture(scene, &error);
         atomic_store(&armed, false);
         long kept = atomic_load(&held) - before; /* libcheck takes memory, too */
-        ck_assert_msg(status == SRP_OK || status == SRP_NO_MEMORY, "%s, allocation %ld: %s", name,
-                      count, error.message);
+        ck_assert_msg(status == SRP_OK || status == SRP_NO_MEMORY, "%s, allocation %ld: %s",
+                      name != NULL ? name : "pictures", count, error.message);
         ck_assert_int_eq(error.status, status);
-        ck_assert_msg(kept == 0, "%s, allocation %ld: %ld blocks kept", name, count, kept);
+        ck_assert_msg(kept == 0, "%s, allocation %ld: %ld blocks kept",
+                      name != NULL ? name : "pictures", count, kept);
     }
     ck_assert_int_gt(count, 10);
-    printf("  %s: %ld allocations\n", name, count - 1);
+    printf("  %s: %ld allocations\n", name != NULL ? name : "pictures", count - 1);
     srp_scene_destroy(scene);
 }
 
@@ -113,12 +131,18 @@ START_TEST(raytrace_gives_back_what_it_took) {
 }
 END_TEST
 
+START_TEST(pictures_give_back_what_they_took) {
+    exhaust(NULL);
+}
+END_TEST
+
 static Suite *make_suite(bool is_long) {
     (void)is_long;
     Suite *suite = suite_create("gl_alloc_failure");
     TCase *tcase = tcase_create("gl_alloc_failure");
     tcase_add_test(tcase, raycast_gives_back_what_it_took);
     tcase_add_test(tcase, raytrace_gives_back_what_it_took);
+    tcase_add_test(tcase, pictures_give_back_what_they_took);
     suite_add_tcase(suite, tcase);
     return suite;
 }

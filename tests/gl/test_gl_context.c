@@ -69,7 +69,7 @@ END_TEST
 START_TEST(both_methods_are_on_every_device) {
     size_t count;
     const srp_method *const *methods = srp_gl_method_list(&count);
-    ck_assert_uint_eq(count, 20);
+    ck_assert_uint_eq(count, 36); /* OSMesa, EGL, 16 of EGL's devices */
     for (size_t k = 0; k < count; ++k) {
         const char *name = k % 2 == 0 ? "raycast" : "raytrace";
         ck_assert_str_eq(methods[k]->name, name);
@@ -94,12 +94,32 @@ START_TEST(unknown_drivers_are_refused) {
 }
 END_TEST
 
+START_TEST(settings_that_crash_drivers_are_refused) {
+    const bool osmesa = strcmp(gl_device_name, "gl:osmesa") == 0;
+    const char *name = osmesa ? "MESA_GLSL_VERSION_OVERRIDE" : "GALLIUM_DRIVER";
+    setting old = set(name, osmesa ? "120" : "virpipe");
+    srp_error error = refused(gl_device_name);
+    ck_assert(says(&error, name));
+    reset(&old);
+}
+END_TEST
+
 START_TEST(devices_that_are_not_there_are_refused) {
     if (strcmp(gl_device_name, "gl:egl") != 0) {
         return;
     }
-    srp_error error = refused("gl:egl:7");
-    ck_assert(says(&error, "there is no number 7"));
+    srp_error error = refused("gl:egl:15");
+    ck_assert(says(&error, "there is no number 15"));
+    /* Also when no ray would be traced there. */
+    srp_scene *scene =
+        shape_scene(shape_box(srp_vec3_make(-1.0, -1.0, -1.0), srp_vec3_make(1.0, 1.0, 1.0), "box"),
+                    (srp_optics){0.3, 0.2, false});
+    srp_prepared *prepared = NULL;
+    srp_method_params params = srp_method_params_default();
+    ck_assert_int_eq(srp_method_prepare(gl_method_on("gl:egl:15", "raytrace"), scene, &params,
+                                        &prepared, &error),
+                     SRP_NO_DEVICE);
+    srp_scene_destroy(scene);
 }
 END_TEST
 
@@ -219,6 +239,7 @@ static Suite *make_suite(bool is_long) {
     tcase_add_test(tcase, devices_are_described);
     tcase_add_test(tcase, both_methods_are_on_every_device);
     tcase_add_test(tcase, unknown_drivers_are_refused);
+    tcase_add_test(tcase, settings_that_crash_drivers_are_refused);
     tcase_add_test(tcase, devices_that_are_not_there_are_refused);
     tcase_add_test(tcase, methods_say_what_is_missing_when_they_are_prepared);
     tcase_add_test(tcase, contexts_come_and_go);

@@ -12,7 +12,7 @@
  *     "gl:osmesa"   Mesa's software renderer in memory; needs no GPU
  *     "gl:egl"      the first GPU that EGL lists and can use; without one, Mesa's surfaceless
  *                   platform, which is its software renderer again
- *     "gl:egl:N"    EGL's device number N, 0 to 7
+ *     "gl:egl:N"    EGL's device number N, 0 to 15
  *
  * One context serves one call at a time: several threads may call srp_prepared_respond() on one
  * prepared method, each with a context of its own, made when first needed. A context is current on

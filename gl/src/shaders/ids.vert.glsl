@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertices of the scene, turned to the Sun and laid over the samples of a lattice.
+// Vertices over the samples of a lattice, laid over a picture. They come projected: differences of
+// coordinates that are large beside the picture were taken in double precision.
 
-layout(location = 0) in vec3 position; // unit space of the scene
+layout(location = 0) in vec3 position; // samples along x and y; depth within [-1, 1], -1 nearest
 
-// Coordinates of the target and depth: xyz . position + w.
-uniform vec4 along_x;
-uniform vec4 along_y;
-uniform vec4 along_z;
+uniform vec2 middle; // of the picture [samples]
+uniform vec2 scale;  // coordinates of the target per sample
 
 invariant gl_Position;
 
 void main() {
-    gl_Position = vec4(dot(along_x.xyz, position) + along_x.w,
-                       dot(along_y.xyz, position) + along_y.w,
-                       dot(along_z.xyz, position) + along_z.w, 1.0);
+    gl_Position = vec4(scale * (position.xy - middle), position.z, 1.0);
 }
