@@ -32,87 +32,38 @@ static srp_status prepare(srp_interp *interp, srp_error *error) {
     return SRP_OK;
 }
 
-SRP_CLONE_PART void value_weights(double x, double w[4]) {
-    double xx = x * x, xxx = xx * x;
-    w[0] = xx - 0.5 * (x + xxx);
-    w[1] = 1.0 - 2.5 * xx + 1.5 * xxx;
-    w[2] = 0.5 * x + 2.0 * xx - 1.5 * xxx;
-    w[3] = 0.5 * (xxx - xx);
-}
-
-SRP_CLONE_PART void slope_weights(double x, double w[4]) {
-    double xx = x * x;
-    w[0] = 2.0 * x - 0.5 - 1.5 * xx;
-    w[1] = 4.5 * xx - 5.0 * x;
-    w[2] = 0.5 + 4.0 * x - 4.5 * xx;
-    w[3] = 1.5 * xx - x;
-}
-
-static void polynomial(const double e[4], double *d, double *c, double *b) {
-    *d = 0.5 * (e[2] - e[0]);
-    *c = e[0] - 2.5 * e[1] + 2.0 * e[2] - 0.5 * e[3];
-    *b = 0.5 * (e[3] - e[0]) + 1.5 * (e[1] - e[2]);
-}
-
 /* (1 - d)^2 (1 + 2 d). */
 static cubic_fade fade(double d) {
     cubic_fade r = {1.0 - d * d * (3.0 - 2.0 * d), 6.0 * d * (d - 1.0)};
     return r;
 }
 
-/* Looks for the place again, so that the usual look-up need not keep it for this one. */
+static const cubic_kind KIND = {
+    .power = {{0.0, 1.0, 0.0, 0.0},
+              {-0.5, 0.0, 0.5, 0.0},
+              {1.0, -2.5, 2.0, -0.5},
+              {-0.5, 1.5, -1.5, 0.5}},
+    .lanes = {CUBIC_LANES(0.0, 1.0, 0.0, 0.0), CUBIC_LANES(-0.5, 0.0, 0.5, 0.0),
+              CUBIC_LANES(1.0, -2.5, 2.0, -0.5), CUBIC_LANES(-0.5, 1.5, -1.5, 0.5)},
+    .fade = fade,
+    .second = false,
+};
+
 static bool eval_at_pole(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
-    srp_interp_place place;
-    double x[4], dx[4], value[SRP_INTERP_WIDTH_FT];
-    double by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
-    if (!srp_interp_locate(interp, s, &place)) {
-        return false;
-    }
-    value_weights(place.p, x);
-    slope_weights(place.p, dx);
-    cubic_fade to_fit = fade(srp_interp_theta(&place) * interp->rows_per_rad);
-    cubic_at_pole(interp, &place, x, dx, polynomial, to_fit, false, value,
-                  to->jacobian != NULL ? by_az : NULL, by_el);
-    srp_interp_give_value(interp, value, to);
-    if (to->jacobian != NULL) {
-        srp_interp_give_slopes(interp, &place, by_az, by_el, to->jacobian);
-    }
-    return true;
+    return cubic_eval_at_pole(interp, s, to, &KIND);
 }
 
 SRP_TARGET_CLONES
 static bool eval_slopes(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
-    srp_interp_place place;
-    double value[SRP_INTERP_WIDTH_FT], by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
-    if (!srp_interp_locate(interp, s, &place)) {
-        return false;
-    }
-    if (srp_interp_pole_at(interp, &place) != 0) {
-        return eval_at_pole(interp, s, to);
-    }
-    cubic_value_inside(interp, &place, value_weights, value);
-    cubic_slopes_inside(interp, &place, value_weights, slope_weights, by_az, by_el);
-    srp_interp_give_value(interp, value, to);
-    srp_interp_give_slopes(interp, &place, by_az, by_el, to->jacobian);
-    return true;
+    return cubic_eval_slopes(interp, s, to, &KIND, eval_at_pole);
 }
 
 SRP_TARGET_CLONES
 static bool eval(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
-    srp_interp_place place;
-    double value[SRP_INTERP_WIDTH_FT];
     if (to->jacobian != NULL) {
         return eval_slopes(interp, s, to);
     }
-    if (!srp_interp_locate(interp, s, &place)) {
-        return false;
-    }
-    if (srp_interp_pole_at(interp, &place) != 0) {
-        return eval_at_pole(interp, s, to);
-    }
-    cubic_value_inside(interp, &place, value_weights, value);
-    srp_interp_give_value(interp, value, to);
-    return true;
+    return cubic_eval_value(interp, s, to, &KIND, eval_at_pole);
 }
 
 const srp_interp_scheme srp_interp_bicubic = {

@@ -57,7 +57,7 @@ SRP_CLONE_PART void values(const srp_interp_place *place, const double *a, const
 /* The nodes at (i, j) and (i + 1, j). */
 SRP_CLONE_PART void corners(const srp_interp *interp, const srp_interp_place *place,
                             const double **a, const double **b) {
-    srp_interp_stencil at = srp_interp_stencil_of(interp, place->i, place->j);
+    srp_interp_stencil at = srp_interp_stencil_of(interp, place->i, place->j, interp->width);
     *a = at.first + at.column + interp->width;
     *b = *a + at.column;
 }

@@ -20,87 +20,125 @@
 #include "clones.h"
 #include "interp_locate.h"
 
-/* Of the four coefficients around a place in a cell. */
-typedef void cubic_weights(double x, double weight[4]);
-
-/* Sum of four rows of component k. */
-SRP_CLONE_PART double cubic_rows(const double *c, const double y[4], size_t k, size_t width) {
-    return (y[0] * c[k] + y[1] * c[width + k]) +
-           (y[2] * c[2 * width + k] + y[3] * c[3 * width + k]);
-}
-
-/* Values of `width` components, the linear part included. */
-SRP_CLONE_PART void cubic_value(const srp_interp *interp, const srp_interp_place *place,
-                                srp_interp_stencil at, const double x[4], const double y[4],
-                                size_t width, double *value) {
-    const double *c0 = at.first, *c1 = c0 + at.column, *c2 = c1 + at.column, *c3 = c2 + at.column;
-    const double(*linear)[SRP_INTERP_WIDTH_FT] = interp->linear;
-    const srp_vec3 s = place->s;
-    for (size_t k = 0; k < width; ++k) {
-        double low = x[0] * cubic_rows(c0, y, k, width) + x[1] * cubic_rows(c1, y, k, width);
-        double high = x[2] * cubic_rows(c2, y, k, width) + x[3] * cubic_rows(c3, y, k, width);
-        value[k] =
-            ((linear[0][k] + s.x * linear[1][k]) + (s.y * linear[2][k] + s.z * linear[3][k])) +
-            (low + high);
-    }
-}
-
-/* Derivatives along both angles per rad of arc, without the linear part. */
-SRP_CLONE_PART void cubic_slopes(const srp_interp *interp, const srp_interp_place *place,
-                                 srp_interp_stencil at, const double w[4][4], size_t width,
-                                 double *by_az, double *by_el) {
-    const double *c0 = at.first, *c1 = c0 + at.column, *c2 = c1 + at.column, *c3 = c2 + at.column;
-    const double *x = w[0], *y = w[1], *dx = w[2], *dy = w[3];
-    const double az = interp->columns_per_rad / place->cos_el, el = interp->rows_per_rad;
-    for (size_t k = 0; k < width; ++k) {
-        by_az[k] =
-            az * ((dx[0] * cubic_rows(c0, y, k, width) + dx[1] * cubic_rows(c1, y, k, width)) +
-                  (dx[2] * cubic_rows(c2, y, k, width) + dx[3] * cubic_rows(c3, y, k, width)));
-        by_el[k] =
-            el * ((x[0] * cubic_rows(c0, dy, k, width) + x[1] * cubic_rows(c1, dy, k, width)) +
-                  (x[2] * cubic_rows(c2, dy, k, width) + x[3] * cubic_rows(c3, dy, k, width)));
-    }
-}
-
-/* Value in a cell without a pole. */
-SRP_CLONE_PART void cubic_value_inside(const srp_interp *interp, const srp_interp_place *place,
-                                       cubic_weights *weights, double *value) {
-    srp_interp_stencil at = srp_interp_stencil_of(interp, place->i, place->j);
-    double x[4], y[4];
-    weights(place->p, x);
-    weights(place->q, y);
-    if (interp->width == SRP_INTERP_WIDTH_F) {
-        cubic_value(interp, place, at, x, y, SRP_INTERP_WIDTH_F, value);
-    } else {
-        cubic_value(interp, place, at, x, y, SRP_INTERP_WIDTH_FT, value);
-    }
-}
-
-/* Derivatives there. */
-SRP_CLONE_PART void cubic_slopes_inside(const srp_interp *interp, const srp_interp_place *place,
-                                        cubic_weights *weights, cubic_weights *slope_weights,
-                                        double *by_az, double *by_el) {
-    srp_interp_stencil at = srp_interp_stencil_of(interp, place->i, place->j);
-    double w[4][4];
-    weights(place->p, w[0]);
-    weights(place->q, w[1]);
-    slope_weights(place->p, w[2]);
-    slope_weights(place->q, w[3]);
-    const double(*all)[4] = (const double(*)[4])w;
-    if (interp->width == SRP_INTERP_WIDTH_F) {
-        cubic_slopes(interp, place, at, all, SRP_INTERP_WIDTH_F, by_az, by_el);
-    } else {
-        cubic_slopes(interp, place, at, all, SRP_INTERP_WIDTH_FT, by_az, by_el);
-    }
-}
-
-/* How the scheme turns four coefficients, counted from beyond the pole, into D, C and B. */
-typedef void cubic_polynomial(const double e[4], double *d, double *c, double *b);
-
 /* The fade, by d from 0 to 1, and its derivative. */
 typedef struct cubic_fade {
     double weight, slope;
 } cubic_fade;
+typedef cubic_fade cubic_fade_function(double d);
+
+/* Four copies of each. */
+#define CUBIC_LANES(a, b, c, d)                                                                    \
+    { a, a, a, a, b, b, b, b, c, c, c, c, d, d, d, d }
+
+/* What makes a scheme. A coefficient counts by a cubic in the place in the cell: its power p by
+ * power[p] of the four around it, and lanes[p] is that four times each. */
+typedef struct cubic_kind {
+    double power[4][4], lanes[4][16];
+    cubic_fade_function *fade;
+    bool second; /* C is replaced too */
+} cubic_kind;
+
+SRP_CLONE_PART void cubic_weights(const double (*power)[4], double x, double w[4]) {
+    for (size_t a = 0; a < 4; ++a) {
+        w[a] = ((power[3][a] * x + power[2][a]) * x + power[1][a]) * x + power[0][a];
+    }
+}
+
+SRP_CLONE_PART void cubic_slope_weights(const double (*power)[4], double x, double w[4]) {
+    for (size_t a = 0; a < 4; ++a) {
+        w[a] = (3.0 * power[3][a] * x + 2.0 * power[2][a]) * x + power[1][a];
+    }
+}
+
+SRP_CLONE_PART void cubic_lane_weights(const double (*lanes)[16], double x, double w[16]) {
+    for (size_t a = 0; a < 16; ++a) {
+        w[a] = ((lanes[3][a] * x + lanes[2][a]) * x + lanes[1][a]) * x + lanes[0][a];
+    }
+}
+
+/* The linear part of component k. */
+SRP_CLONE_PART double cubic_linear(const srp_interp *interp, srp_vec3 s, size_t k) {
+    const double(*linear)[SRP_INTERP_WIDTH_FT] = interp->linear;
+    return (linear[0][k] + s.x * linear[1][k]) + (s.y * linear[2][k] + s.z * linear[3][k]);
+}
+
+/* f alone. Four rows of a column lie one after the other, so that eight lanes hold two nodes. */
+SRP_CLONE_PART void cubic_value_f(const srp_interp *interp, const srp_interp_place *place,
+                                  const cubic_kind *kind, double *value) {
+    enum { W = SRP_INTERP_WIDTH_F, LANES = 2 * W };
+    const srp_interp_stencil at = srp_interp_stencil_of(interp, place->i, place->j, W);
+    const double *c0 = at.first, *c1 = c0 + at.column, *c2 = c1 + at.column, *c3 = c2 + at.column;
+    double x[4], y[4 * W], part[LANES];
+    cubic_lane_weights(kind->lanes, place->q, y);
+    cubic_weights(kind->power, place->p, x);
+    for (size_t k = 0; k < LANES; ++k) {
+        part[k] = (x[0] * (y[k] * c0[k] + y[LANES + k] * c0[LANES + k]) +
+                   x[1] * (y[k] * c1[k] + y[LANES + k] * c1[LANES + k])) +
+                  (x[2] * (y[k] * c2[k] + y[LANES + k] * c2[LANES + k]) +
+                   x[3] * (y[k] * c3[k] + y[LANES + k] * c3[LANES + k]));
+    }
+    for (size_t k = 0; k < W; ++k) {
+        value[k] = (part[k] + part[W + k]) + cubic_linear(interp, place->s, k);
+    }
+}
+
+/* Rows b and b + 2 of column `c`, component k. */
+SRP_CLONE_PART double cubic_rows(const double *c, const double y[4], size_t b, size_t k,
+                                 size_t width) {
+    return y[b] * c[b * width + k] + y[b + 2] * c[(b + 2) * width + k];
+}
+
+/* Component k, weighted by x and y; the sum goes as in cubic_value_f(), to the bit. */
+SRP_CLONE_PART double cubic_sum(srp_interp_stencil at, const double x[4], const double y[4],
+                                size_t k, size_t width) {
+    const double *c0 = at.first, *c1 = c0 + at.column, *c2 = c1 + at.column, *c3 = c2 + at.column;
+    double sum[2];
+    for (size_t b = 0; b < 2; ++b) {
+        sum[b] = (x[0] * cubic_rows(c0, y, b, k, width) + x[1] * cubic_rows(c1, y, b, k, width)) +
+                 (x[2] * cubic_rows(c2, y, b, k, width) + x[3] * cubic_rows(c3, y, b, k, width));
+    }
+    return sum[0] + sum[1];
+}
+
+/* f and t. */
+SRP_CLONE_PART void cubic_value_ft(const srp_interp *interp, const srp_interp_place *place,
+                                   const cubic_kind *kind, double *value) {
+    enum { W = SRP_INTERP_WIDTH_FT };
+    const srp_interp_stencil at = srp_interp_stencil_of(interp, place->i, place->j, W);
+    double x[4], y[4];
+    cubic_weights(kind->power, place->p, x);
+    cubic_weights(kind->power, place->q, y);
+    for (size_t k = 0; k < W; ++k) {
+        value[k] = cubic_sum(at, x, y, k, W) + cubic_linear(interp, place->s, k);
+    }
+}
+
+/* Value in a cell without a pole. */
+SRP_CLONE_PART void cubic_value(const srp_interp *interp, const srp_interp_place *place,
+                                const cubic_kind *kind, double *value) {
+    if (interp->width == SRP_INTERP_WIDTH_F) {
+        cubic_value_f(interp, place, kind, value);
+    } else {
+        cubic_value_ft(interp, place, kind, value);
+    }
+}
+
+/* Derivatives there, along both angles per rad of arc, without the linear part. */
+SRP_CLONE_PART void cubic_slopes(const srp_interp *interp, const srp_interp_place *place,
+                                 const cubic_kind *kind, size_t width, double *by_az,
+                                 double *by_el) {
+    const srp_interp_stencil at = srp_interp_stencil_of(interp, place->i, place->j, width);
+    const double az = interp->columns_per_rad / place->cos_el, el = interp->rows_per_rad;
+    double x[4], y[4], dx[4], dy[4];
+    cubic_weights(kind->power, place->p, x);
+    cubic_weights(kind->power, place->q, y);
+    cubic_slope_weights(kind->power, place->p, dx);
+    cubic_slope_weights(kind->power, place->q, dy);
+    for (size_t k = 0; k < width; ++k) {
+        by_az[k] = az * cubic_sum(at, dx, y, k, width);
+        by_el[k] = el * cubic_sum(at, x, dy, k, width);
+    }
+}
 
 typedef struct cubic_pole_sum {
     double d, c, b; /* blended along azimuth */
@@ -116,22 +154,32 @@ static inline cubic_pole_sum cubic_blend(const double part[4][3], const double w
     return sum;
 }
 
-/* A cell with a pole: value, by_az and by_el per rad of arc. `second`: C is replaced too. */
+/* Powers 1 to 3 of the cubic through four coefficients, counted from beyond the pole. */
+static inline void cubic_polynomial(const double (*power)[4], const double e[4], double part[3]) {
+    for (size_t p = 1; p < 4; ++p) {
+        part[p - 1] =
+            (power[p][0] * e[0] + power[p][1] * e[1]) + (power[p][2] * e[2] + power[p][3] * e[3]);
+    }
+}
+
+/* A cell with a pole: value, by_az and by_el (unless by_az is NULL) per rad of arc. */
 static inline void cubic_at_pole(const srp_interp *interp, const srp_interp_place *place,
-                                 const double x[4], const double dx[4],
-                                 cubic_polynomial *polynomial, cubic_fade fade, bool second,
-                                 double *value, double *by_az, double *by_el) {
+                                 const cubic_kind *kind, double *value, double *by_az,
+                                 double *by_el) {
     const int sign = srp_interp_pole_at(interp, place);
     const srp_interp_pole *pole = &interp->poles[sign > 0];
-    const srp_interp_stencil at = srp_interp_stencil_of(interp, place->i, place->j);
-    const double cos_az = place->cos_az, sin_az = place->sin_az;
+    const srp_interp_stencil at = srp_interp_stencil_of(interp, place->i, place->j, interp->width);
+    double cos_az, sin_az;
+    srp_interp_turn(place, &cos_az, &sin_az);
     const double cos_2az = cos_az * cos_az - sin_az * sin_az, sin_2az = 2.0 * sin_az * cos_az;
     const double theta = srp_interp_theta(place), d = theta * interp->rows_per_rad;
     /* Rows per rad of arc along the parallel. */
     const double arc = interp->rows_per_rad * (place->cos_el > 0.0 ? theta / place->cos_el : 1.0);
+    const cubic_fade fade = kind->fade(d);
     const double w = fade.weight, dw = fade.slope, columns = interp->columns_per_rad;
-    const double(*linear)[SRP_INTERP_WIDTH_FT] = interp->linear;
-    const srp_vec3 s = place->s;
+    double x[4], dx[4];
+    cubic_weights(kind->power, place->p, x);
+    cubic_slope_weights(kind->power, place->p, dx);
     for (size_t k = 0; k < interp->width; ++k) {
         double part[4][3];
         for (size_t a = 0; a < 4; ++a) {
@@ -140,17 +188,17 @@ static inline void cubic_at_pole(const srp_interp *interp, const srp_interp_plac
                 size_t row = sign > 0 ? 3 - b : b;
                 e[b] = at.first[a * at.column + row * interp->width + k];
             }
-            polynomial(e, &part[a][0], &part[a][1], &part[a][2]);
+            cubic_polynomial(kind->power, e, part[a]);
         }
         const double(*parts)[3] = (const double(*)[3])part;
         cubic_pole_sum sum = cubic_blend(parts, x);
         double fit_d = pole->slope[0][k] * cos_az + pole->slope[1][k] * sin_az - sum.d;
-        double fit_c = second ? 0.5 * (pole->curve[0][k] + pole->curve[1][k] * cos_2az +
-                                       pole->curve[2][k] * sin_2az) -
-                                    sum.c
-                              : 0.0;
+        double fit_c = kind->second ? 0.5 * (pole->curve[0][k] + pole->curve[1][k] * cos_2az +
+                                             pole->curve[2][k] * sin_2az) -
+                                          sum.c
+                                    : 0.0;
         value[k] = pole->value[k] + d * (sum.d + w * fit_d + d * (sum.c + w * fit_c + d * sum.b)) +
-                   (linear[0][k] + s.x * linear[1][k] + s.y * linear[2][k] + s.z * linear[3][k]);
+                   cubic_linear(interp, place->s, k);
         if (by_az == NULL) {
             continue;
         }
@@ -159,12 +207,70 @@ static inline void cubic_at_pole(const srp_interp *interp, const srp_interp_plac
         by_el[k] = -sign * away * interp->rows_per_rad;
         sum = cubic_blend(parts, dx);
         double turn_d = pole->slope[1][k] * cos_az - pole->slope[0][k] * sin_az - columns * sum.d;
-        double turn_c =
-            second ? pole->curve[2][k] * cos_2az - pole->curve[1][k] * sin_2az - columns * sum.c
-                   : 0.0;
+        double turn_c = kind->second ? pole->curve[2][k] * cos_2az - pole->curve[1][k] * sin_2az -
+                                           columns * sum.c
+                                     : 0.0;
         by_az[k] = arc * (columns * sum.d + w * turn_d +
                           d * (columns * sum.c + w * turn_c + d * columns * sum.b));
     }
+}
+
+/* Looks for the place again, so that the usual look-up need not keep it for this one. */
+static inline bool cubic_eval_at_pole(const srp_interp *interp, const srp_vec3 *s,
+                                      const srp_interp_target *to, const cubic_kind *kind) {
+    srp_interp_place place;
+    double value[SRP_INTERP_WIDTH_FT], by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
+    if (!srp_interp_locate(interp, s, &place)) {
+        return false;
+    }
+    cubic_at_pole(interp, &place, kind, value, to->jacobian != NULL ? by_az : NULL, by_el);
+    srp_interp_give_value(interp, value, to);
+    if (to->jacobian != NULL) {
+        srp_interp_give_slopes(interp, &place, by_az, by_el, to->jacobian);
+    }
+    return true;
+}
+
+/* False unless s is a unit vector. Cells with a pole are left to `at_pole`. */
+typedef bool cubic_eval_function(const srp_interp *interp, const srp_vec3 *s,
+                                 const srp_interp_target *to);
+
+SRP_CLONE_PART bool cubic_eval_value(const srp_interp *interp, const srp_vec3 *s,
+                                     const srp_interp_target *to, const cubic_kind *kind,
+                                     cubic_eval_function *at_pole) {
+    srp_interp_place place;
+    double value[SRP_INTERP_WIDTH_FT];
+    if (!srp_interp_locate(interp, s, &place)) {
+        return false;
+    }
+    if (srp_interp_pole_at(interp, &place) != 0) {
+        return at_pole(interp, s, to);
+    }
+    cubic_value(interp, &place, kind, value);
+    srp_interp_give_value(interp, value, to);
+    return true;
+}
+
+SRP_CLONE_PART bool cubic_eval_slopes(const srp_interp *interp, const srp_vec3 *s,
+                                      const srp_interp_target *to, const cubic_kind *kind,
+                                      cubic_eval_function *at_pole) {
+    srp_interp_place place;
+    double value[SRP_INTERP_WIDTH_FT], by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
+    if (!srp_interp_locate(interp, s, &place)) {
+        return false;
+    }
+    if (srp_interp_pole_at(interp, &place) != 0) {
+        return at_pole(interp, s, to);
+    }
+    cubic_value(interp, &place, kind, value);
+    if (interp->width == SRP_INTERP_WIDTH_F) {
+        cubic_slopes(interp, &place, kind, SRP_INTERP_WIDTH_F, by_az, by_el);
+    } else {
+        cubic_slopes(interp, &place, kind, SRP_INTERP_WIDTH_FT, by_az, by_el);
+    }
+    srp_interp_give_value(interp, value, to);
+    srp_interp_give_slopes(interp, &place, by_az, by_el, to->jacobian);
+    return true;
 }
 
 #endif

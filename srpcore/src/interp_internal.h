@@ -29,10 +29,9 @@ struct srp_interp {
     size_t width;
     uint32_t columns, rows; /* steps of azimuth and elevation */
     double columns_per_rad, rows_per_rad;
-    /* Azimuth in columns from -180 degrees is az_base + az_scale times the angle to the nearest
-     * axis. By 4 |sine| > |cosine|, 2 cosine < 0, 1 sine < 0. Elevation in rows from -90 likewise,
-     * by 2 |sine| > cosine, 1 sine < 0. */
-    double az_base[8], az_scale[8], el_base[4], el_scale[4];
+    /* Azimuth in columns from -180 degrees is az_base + az_scale times an arc tangent, by 2 (x <
+     * 0), 1 (y < 0); elevation in rows from -90 likewise. */
+    double az_base[4], az_scale[4], el_base, el_scale;
     /* (columns + 3, rows + 3, width): column i of the grid is at i + 1 and row j at j + 1, with one
      * more of each before the first and behind the last. Columns repeat; the rows beyond the poles
      * are the scheme's. Nodes, or what the scheme has made of them. */
@@ -46,10 +45,9 @@ struct srp_interp {
 /* Where a direction lies. */
 typedef struct srp_interp_place {
     srp_vec3 s; /* normalised */
-    double cos_az, sin_az, cos_el;
-    uint32_t i, j;   /* cell: between columns i and i + 1, rows j and j + 1 */
-    double p, q;     /* place in the cell, 0 to 1, along azimuth and elevation */
-    double el_angle; /* [rad] from the nearest of equator and poles */
+    double cos_el;
+    uint32_t i, j; /* cell: between columns i and i + 1, rows j and j + 1 */
+    double p, q;   /* place in the cell, 0 to 1, along azimuth and elevation */
 } srp_interp_place;
 
 static inline size_t srp_interp_column_size(const srp_interp *interp) {
@@ -69,13 +67,14 @@ typedef struct srp_interp_stencil {
     size_t column;
 } srp_interp_stencil;
 
-/* Those of cell (i, j), of which a local scheme looks at the inner ones as far as its `reach` says.
- * Besides these, the local schemes need the poles, bicubic the six nodes of the linear part, and
- * cells with a pole those that srp_interp_fit_slopes() looks at: interp_demand.c asks for them. */
+/* Those of cell (i, j) (`width` is that of the interpolant), of which a local scheme looks at the
+ * inner ones as far as its `reach` says. Besides these, the local schemes need the poles, bicubic
+ * the six nodes of the linear part, and cells with a pole those that srp_interp_fit_slopes() looks
+ * at: interp_demand.c asks for them. */
 static inline srp_interp_stencil srp_interp_stencil_of(const srp_interp *interp, uint32_t i,
-                                                       uint32_t j) {
-    size_t column = srp_interp_column_size(interp);
-    srp_interp_stencil stencil = {interp->nodes + i * column + j * interp->width, column};
+                                                       uint32_t j, size_t width) {
+    size_t column = ((size_t)interp->rows + 3) * width;
+    srp_interp_stencil stencil = {interp->nodes + i * column + j * width, column};
     return stencil;
 }
 

@@ -104,21 +104,35 @@ static void filter_columns(srp_interp *interp, const spline_work *work, size_t k
 
 /* ---- Poles ---------------------------------------------------------------------------------- */
 
-static void polynomial(const double e[4], double *d, double *c, double *b) {
-    *d = 0.5 * (e[2] - e[0]);
-    *c = 0.5 * (e[0] - 2.0 * e[1] + e[2]);
-    *b = (e[3] - e[0]) / 6.0 + 0.5 * (e[1] - e[2]);
+/* 1 - 10 d^3 + 15 d^4 - 6 d^5. */
+static cubic_fade fade(double d) {
+    cubic_fade r = {1.0 - d * d * d * (10.0 + d * (6.0 * d - 15.0)),
+                    -30.0 * d * d * (1.0 - d) * (1.0 - d)};
+    return r;
 }
+
+static const cubic_kind KIND = {
+    .power = {{1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 0.0},
+              {-0.5, 0.0, 0.5, 0.0},
+              {0.5, -1.0, 0.5, 0.0},
+              {-1.0 / 6.0, 0.5, -0.5, 1.0 / 6.0}},
+    .lanes = {CUBIC_LANES(1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 0.0), CUBIC_LANES(-0.5, 0.0, 0.5, 0.0),
+              CUBIC_LANES(0.5, -1.0, 0.5, 0.0), CUBIC_LANES(-1.0 / 6.0, 0.5, -0.5, 1.0 / 6.0)},
+    .fade = fade,
+    .second = true,
+};
 
 /* D and C of the meridian over column i; off the pole. */
 static void pole_polynomial(const srp_interp *interp, int north, uint32_t i, size_t k, double *d,
                             double *c) {
-    double e[4], b;
+    double e[4], part[3];
     long last = (long)interp->rows;
     for (long j = 0; j < 4; ++j) {
         e[j] = srp_interp_node(interp, (long)i, north ? last + 1 - j : j - 1)[k];
     }
-    polynomial(e, d, c, &b);
+    cubic_polynomial(KIND.power, e, part);
+    *d = part[0];
+    *c = part[1];
 }
 
 /* First harmonic of the slopes, harmonics 0 and 2 of the curvatures. What the spline has between
@@ -170,82 +184,21 @@ static srp_status prepare(srp_interp *interp, srp_error *error) {
     return status;
 }
 
-SRP_CLONE_PART void value_weights(double x, double w[4]) {
-    double y = 1.0 - x, xx = x * x, yy = y * y;
-    w[0] = yy * y * (1.0 / 6.0);
-    w[1] = 2.0 / 3.0 - 0.5 * xx * (2.0 - x);
-    w[2] = 2.0 / 3.0 - 0.5 * yy * (2.0 - y);
-    w[3] = xx * x * (1.0 / 6.0);
-}
-
-SRP_CLONE_PART void slope_weights(double x, double w[4]) {
-    double y = 1.0 - x;
-    w[0] = -0.5 * y * y;
-    w[1] = x * (1.5 * x - 2.0);
-    w[2] = y * (2.0 - 1.5 * y);
-    w[3] = 0.5 * x * x;
-}
-
-/* 1 - 10 d^3 + 15 d^4 - 6 d^5. */
-static cubic_fade fade(double d) {
-    cubic_fade r = {1.0 - d * d * d * (10.0 + d * (6.0 * d - 15.0)),
-                    -30.0 * d * d * (1.0 - d) * (1.0 - d)};
-    return r;
-}
-
-/* Looks for the place again, so that the usual look-up need not keep it for this one. */
 static bool eval_at_pole(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
-    srp_interp_place place;
-    double x[4], dx[4], value[SRP_INTERP_WIDTH_FT];
-    double by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
-    if (!srp_interp_locate(interp, s, &place)) {
-        return false;
-    }
-    value_weights(place.p, x);
-    slope_weights(place.p, dx);
-    cubic_fade to_fit = fade(srp_interp_theta(&place) * interp->rows_per_rad);
-    cubic_at_pole(interp, &place, x, dx, polynomial, to_fit, true, value,
-                  to->jacobian != NULL ? by_az : NULL, by_el);
-    srp_interp_give_value(interp, value, to);
-    if (to->jacobian != NULL) {
-        srp_interp_give_slopes(interp, &place, by_az, by_el, to->jacobian);
-    }
-    return true;
+    return cubic_eval_at_pole(interp, s, to, &KIND);
 }
 
 SRP_TARGET_CLONES
 static bool eval_slopes(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
-    srp_interp_place place;
-    double value[SRP_INTERP_WIDTH_FT], by_az[SRP_INTERP_WIDTH_FT], by_el[SRP_INTERP_WIDTH_FT];
-    if (!srp_interp_locate(interp, s, &place)) {
-        return false;
-    }
-    if (srp_interp_pole_at(interp, &place) != 0) {
-        return eval_at_pole(interp, s, to);
-    }
-    cubic_value_inside(interp, &place, value_weights, value);
-    cubic_slopes_inside(interp, &place, value_weights, slope_weights, by_az, by_el);
-    srp_interp_give_value(interp, value, to);
-    srp_interp_give_slopes(interp, &place, by_az, by_el, to->jacobian);
-    return true;
+    return cubic_eval_slopes(interp, s, to, &KIND, eval_at_pole);
 }
 
 SRP_TARGET_CLONES
 static bool eval(const srp_interp *interp, const srp_vec3 *s, const srp_interp_target *to) {
-    srp_interp_place place;
-    double value[SRP_INTERP_WIDTH_FT];
     if (to->jacobian != NULL) {
         return eval_slopes(interp, s, to);
     }
-    if (!srp_interp_locate(interp, s, &place)) {
-        return false;
-    }
-    if (srp_interp_pole_at(interp, &place) != 0) {
-        return eval_at_pole(interp, s, to);
-    }
-    cubic_value_inside(interp, &place, value_weights, value);
-    srp_interp_give_value(interp, value, to);
-    return true;
+    return cubic_eval_value(interp, s, to, &KIND, eval_at_pole);
 }
 
 const srp_interp_scheme srp_interp_spline = {
