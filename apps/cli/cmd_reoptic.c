@@ -230,7 +230,8 @@ const cli_command cli_command_reoptic = {
         "that it follows from the sums of each material that a table keeps when it is made with "
         "--basis; nothing is traced, and materials that are not named keep their optics.\n\n"
         "Light that was reflected before is not linear in the optics. Tables that hold it (method "
-        "raytrace) are refused, unless --keep-bounce leaves that part as it was traced. The back "
+        "raytrace, unless with --reflections 0) are refused, unless --keep-bounce leaves that part "
+        "as it was traced. The back "
         "of a one-sided material stays black; which sides a material has cannot be changed.",
     .examples = "srp table box-wing.obj -o box-wing.nc --basis\n"
                 "srp reoptic box-wing.nc --material cells=0.1,0.05 -o worn.nc -o worn.spo\n"

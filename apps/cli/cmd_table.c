@@ -8,6 +8,7 @@
 #include "outputs.h"
 #include "progress.h"
 #include "system.h"
+#include "table_options.h"
 #include "utf8.h"
 
 #include <srp/cache.h>
@@ -18,130 +19,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    TABLE_OUTPUT,
-    TABLE_STEP,
-    TABLE_AZ_STEP,
-    TABLE_EL_STEP,
-    TABLE_MASS,
-    TABLE_FLUX,
-    TABLE_BASIS,
-    TABLE_TITLE,
-    TABLE_RESTART,
-    TABLE_CACHE,
-    TABLE_CHECK,
-    TABLE_MAX_ERROR,
-    TABLE_INTERPOLATION,
-    TABLE_OPTION_COUNT
-};
-
-typedef struct table_options {
-    cli_given given;
-    cli_list outputs;
-    double step, az_step, el_step, mass, flux;
-    const char *title; /* NULL = names of the model */
-    bool basis, restart, cache;
-    uint32_t check;
-    double max_error;          /* NAN = the step is given */
-    const char *interpolation; /* what max_error is about */
-} table_options;
-
-enum { CHECK_DEFAULT = 1000, CHECK_MAX = 1000000 };
-static const cli_range CHECK_RANGE = {1, CHECK_MAX, "a whole number from 1 to 1000000"};
-
-static const cli_option OPTIONS[TABLE_OPTION_COUNT] = {
-    [TABLE_OUTPUT] = {.name = "output",
-                      .letter = 'o',
-                      .value = "FILE",
-                      .complete = CLI_COMPLETE_FILE,
-                      .help = "File to write; its ending chooses the format. May be given several "
-                              "times.",
-                      .set = cli_set_list,
-                      .offset = offsetof(table_options, outputs)},
-    [TABLE_STEP] = {.name = "step",
-                    .value = "DEG",
-                    .help = "Step of azimuth and elevation; divides 180. Default: 5.",
-                    .set = cli_set_number,
-                    .offset = offsetof(table_options, step),
-                    .range = &CLI_POSITIVE},
-    [TABLE_AZ_STEP] = {.name = "az-step",
-                       .value = "DEG",
-                       .help = "Step of azimuth alone; divides 360.",
-                       .set = cli_set_number,
-                       .offset = offsetof(table_options, az_step),
-                       .range = &CLI_POSITIVE},
-    [TABLE_EL_STEP] = {.name = "el-step",
-                       .value = "DEG",
-                       .help = "Step of elevation alone; divides 180.",
-                       .set = cli_set_number,
-                       .offset = offsetof(table_options, el_step),
-                       .range = &CLI_POSITIVE},
-    [TABLE_MASS] = {.name = "mass",
-                    .value = "KG",
-                    .help = "Mass of the spacecraft, for formats that hold accelerations.",
-                    .set = cli_set_number,
-                    .offset = offsetof(table_options, mass),
-                    .range = &CLI_POSITIVE},
-    [TABLE_FLUX] = {.name = "flux",
-                    .value = "W/M2",
-                    .help = "Solar flux at 1 AU that the outputs state. Default: 1367.",
-                    .set = cli_set_number,
-                    .offset = offsetof(table_options, flux),
-                    .range = &CLI_POSITIVE},
-    [TABLE_BASIS] = {.name = "basis",
-                     .help = "Keep the sums of each material, from which the force follows for any "
-                             "optics.",
-                     .set = cli_set_flag,
-                     .offset = offsetof(table_options, basis)},
-    [TABLE_TITLE] = {.name = "title",
-                     .value = "TEXT",
-                     .help = "Title in the outputs. Default: the names of the model's files.",
-                     .set = cli_set_title,
-                     .offset = offsetof(table_options, title)},
-    [TABLE_RESTART] = {.name = "restart",
-                       .help = "Discard what an interrupted run left, and compute from the "
-                               "beginning.",
-                       .set = cli_set_flag,
-                       .offset = offsetof(table_options, restart)},
-    [TABLE_CACHE] = {.name = "cache",
-                     .help = "Take nodes that are remembered, and remember those that are computed "
-                             "('srp cache').",
-                     .set = cli_set_flag,
-                     .offset = offsetof(table_options, cache)},
-    [TABLE_CHECK] = {.name = "check",
-                     .value = "N",
-                     .help = "Compute N directions between the nodes, and keep in the .nc how far "
-                             "interpolants are off there.",
-                     .set = cli_set_count,
-                     .offset = offsetof(table_options, check),
-                     .range = &CHECK_RANGE},
-    [TABLE_MAX_ERROR] = {.name = "max-error",
-                         .value = "REL",
-                         .help = "Choose the step: the largest of 30, 20, 15, 10, 7.5, 6, 5, 4, 3, "
-                                 "2.5, 2, 1.5 and 1 degrees with which interpolation is nowhere in "
-                                 "--check (default: 1000) directions off by more than REL times "
-                                 "the largest |f|.",
-                         .set = cli_set_number,
-                         .offset = offsetof(table_options, max_error),
-                         .range = &CLI_POSITIVE},
-    [TABLE_INTERPOLATION] = {.name = "interpolation",
-                             .value = "NAME",
-                             .complete = CLI_COMPLETE_WORDS,
-                             .words = "bilinear bicubic spline",
-                             .help = "What --max-error is about: bilinear, bicubic or spline. "
-                                     "Default: bilinear, as GMAT's.",
-                             .set = cli_set_text,
-                             .offset = offsetof(table_options, interpolation)},
-};
-
-static const cli_group TABLE = {"Table", OPTIONS, TABLE_OPTION_COUNT};
-static const cli_group *const GROUPS[] = {&TABLE, &cli_group_model, &cli_group_method};
+static const cli_group *const GROUPS[] = {&cli_group_table, &cli_group_model, &cli_group_method};
 
 static const double CHECKPOINT_SECONDS = 30.0;
 
 /* One run. */
 typedef struct table_job {
-    const table_options *options;
+    const cli_table_options *options;
     const cli_model_options *model;
     const cli_method_options *how;
     const cli_operands *operands;
@@ -165,48 +49,15 @@ static bool chooses_step(const table_job *job) {
 
 /* ---- before the computing ---- */
 
-static int choose_grid(const table_options *options, srp_grid *grid) {
-    bool az = cli_is_given(options->given, TABLE_AZ_STEP);
-    bool el = cli_is_given(options->given, TABLE_EL_STEP);
-    if (cli_is_given(options->given, TABLE_STEP) && (az || el)) {
-        return cli_usage_error("--step and --%s exclude each other", az ? "az-step" : "el-step");
-    }
-    if (cli_is_given(options->given, TABLE_MAX_ERROR) &&
-        (az || el || cli_is_given(options->given, TABLE_STEP))) {
-        return cli_usage_error("--max-error chooses the step: it excludes --%s", az   ? "az-step"
-                                                                                 : el ? "el-step"
-                                                                                      : "step");
-    }
-    srp_error error;
-    srp_status status = srp_grid_from_steps(az ? options->az_step : options->step,
-                                            el ? options->el_step : options->step, grid, &error);
-    return status == SRP_OK ? CLI_DONE : cli_usage_error("%s", error.message);
-}
-
-static int check_interpolation(const table_options *options) {
-    if (srp_interp_find(options->interpolation) == NULL) {
-        return cli_usage_error("--interpolation %s: expected bilinear, bicubic or spline",
-                               options->interpolation);
-    }
-    if (cli_is_given(options->given, TABLE_INTERPOLATION) &&
-        !cli_is_given(options->given, TABLE_MAX_ERROR)) {
-        return cli_usage_error("--interpolation says what --max-error is about, which is missing");
-    }
-    return CLI_DONE;
-}
-
 /* All that can be said without reading the model. */
 static int check(table_job *job, const srp_method **method, srp_method_params *params) {
-    const table_options *options = job->options;
+    const cli_table_options *options = job->options;
     if (options->outputs.count == 0) {
         return cli_usage_error("no output: -o FILE.nc, -o FILE.spo or -o FILE.txt");
     }
     int status = cli_method_choose(job->model, job->how, job->operands->count, method, params);
     if (status == CLI_DONE) {
-        status = choose_grid(options, &job->grid);
-    }
-    if (status == CLI_DONE) {
-        status = check_interpolation(options);
+        status = cli_table_choose_grid(options, &job->grid);
     }
     if (status == CLI_DONE && options->basis && !((*method)->capabilities & SRP_METHOD_BASIS)) {
         status = cli_usage_error("method %s gives no sums per material: --basis", (*method)->name);
@@ -287,7 +138,7 @@ static int resume(table_job *job) {
 }
 
 static int open_table(table_job *job) {
-    const table_options *options = job->options;
+    const cli_table_options *options = job->options;
     srp_error error;
     int status = CLI_DONE;
     bool left = !chooses_step(job) && cli_system_file_exists(job->partial);
@@ -457,7 +308,7 @@ static int finish(table_job *job) {
 /* ---- the error between nodes ---- */
 
 static int begin_check(table_job *job) {
-    const table_options *options = job->options;
+    const cli_table_options *options = job->options;
     if (!cli_is_given(options->given, TABLE_CHECK) && !chooses_step(job)) {
         return CLI_DONE;
     }
@@ -548,12 +399,7 @@ static int make_table(table_job *job) {
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    table_options options = {.step = 5.0,
-                             .mass = NAN,
-                             .flux = SRP_SOLAR_FLUX,
-                             .check = CHECK_DEFAULT,
-                             .max_error = NAN,
-                             .interpolation = "bilinear"};
+    cli_table_options options = cli_table_options_default();
     cli_model_options model = cli_model_options_default();
     cli_method_options how = cli_method_options_default();
     void *const targets[] = {&options, &model, &how};

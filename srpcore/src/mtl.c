@@ -163,7 +163,7 @@ static srp_status begin_material(mtl_reader *reader, srp_token keyword) {
     if (token.size == 0) {
         return srp_text_expected(&reader->text, token, "the name of a material", reader->error);
     }
-    char *name = srp_token_copy(token);
+    char *name = srp_token_name(token);
     size_t count = srp_materials_count(reader->fresh);
     srp_material *material = name == NULL ? NULL : srp_materials_touch(reader->fresh, name);
     free(name);

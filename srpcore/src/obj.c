@@ -28,7 +28,7 @@ typedef struct obj_reader {
     srp_corner *corners;    /* of the face in work */
     size_t corner_capacity;
     bool has_area; /* some face has */
-    srp_tally no_area, crossing, not_flat, repeated;
+    srp_tally no_area, crossing, not_flat, repeated, not_utf8;
 } obj_reader;
 
 srp_mesh_read_params srp_mesh_read_params_default(void) {
@@ -124,26 +124,41 @@ static srp_status read_material(obj_reader *reader) {
     return SRP_OK;
 }
 
+/* Adds `name`, which is the mesh's from here on, as material `index` of the mesh. */
+static srp_status add_material(obj_reader *reader, size_t index, char *name) {
+    srp_mesh *mesh = reader->mesh;
+    void *list = mesh->material_names;
+    if (!reserve(&list, &reader->material_capacity, index + 1, sizeof(char *))) {
+        free(name);
+        return no_memory(reader);
+    }
+    mesh->material_names = list;
+    mesh->material_names[index] = name;
+    mesh->material_count++;
+    if (!srp_token_is_utf8(reader->material) && srp_tally_shows(&reader->not_utf8)) {
+        srp_warn_at(reader->log, reader->text.name, reader->material.line, reader->material.column,
+                    "the name of a material is not UTF-8: it is read as %s",
+                    srp_token_excerpt(reader->material).text);
+    }
+    return SRP_OK;
+}
+
 /* Index of the material in force; added to the mesh when it is new. */
 static srp_status find_material(obj_reader *reader, uint32_t *index) {
     srp_mesh *mesh = reader->mesh;
     if (reader->material_index == SIZE_MAX) {
+        char *name = srp_token_name(reader->material);
         size_t i = 0;
-        while (i < mesh->material_count &&
-               !srp_token_is(reader->material, mesh->material_names[i])) {
+        if (name == NULL) {
+            return no_memory(reader);
+        }
+        while (i < mesh->material_count && strcmp(name, mesh->material_names[i]) != 0) {
             i++;
         }
-        if (i == mesh->material_count) {
-            void *list = mesh->material_names;
-            if (!reserve(&list, &reader->material_capacity, i + 1, sizeof(char *))) {
-                return no_memory(reader);
-            }
-            mesh->material_names = list;
-            mesh->material_names[i] = srp_token_copy(reader->material);
-            if (mesh->material_names[i] == NULL) {
-                return no_memory(reader);
-            }
-            mesh->material_count++;
+        if (i < mesh->material_count) {
+            free(name);
+        } else if (add_material(reader, i, name) != SRP_OK) {
+            return SRP_NO_MEMORY;
         }
         reader->material_index = i;
     }
@@ -431,6 +446,7 @@ static srp_status read_faces(obj_reader *reader) {
     srp_tally_close(&reader->not_flat, reader->log, reader->text.name, "faces that are not flat");
     srp_tally_close(&reader->repeated, reader->log, reader->text.name,
                     "faces that name a vertex twice in a row");
+    srp_tally_close(&reader->not_utf8, reader->log, reader->text.name, "names that are not UTF-8");
     return status;
 }
 

@@ -30,20 +30,26 @@ static size_t cut_count(const srp_table *table) {
     return cut;
 }
 
+/* Whether light was followed beyond its first hit. With no reflections the part that is known apart
+ * is 0, and would be so for any optics. */
+static bool follows_light(const srp_table *table) {
+    return table->info.has_bounce && table->info.params.reflections > 0;
+}
+
 static srp_status check_table(const srp_table *table, bool keep_bounce, srp_error *error) {
     if (!table->info.has_basis) {
         return srp_fail(error, SRP_UNSUPPORTED,
                         "the table keeps no sums per material, which other optics follow from: "
                         "make it with --basis and as .nc");
     }
-    if (table->info.has_bounce && !keep_bounce) {
+    if (follows_light(table) && !keep_bounce) {
         return srp_fail(error, SRP_UNSUPPORTED,
                         "the table holds reflected light (method %s), which is not linear in the "
                         "optics: only its direct part can be re-weighted, with the reflected part "
                         "kept as traced (--keep-bounce)",
                         table->info.method);
     }
-    size_t cut = table->info.has_bounce ? 0 : cut_count(table);
+    size_t cut = follows_light(table) ? 0 : cut_count(table);
     if (cut > 0) {
         return srp_fail(error, SRP_UNSUPPORTED,
                         "in %zu nodes part of the model lies outside the sampled window: the sums "
@@ -153,7 +159,7 @@ static srp_status set_origin(reoptic *job, srp_error *error) {
     to->has_error = from->has_error;
     to->has_moment = from->has_moment;
     to->has_bounce = from->has_bounce;
-    to->bounce_kept = from->has_bounce;
+    to->bounce_kept = follows_light(job->from);
     job->to->has_lattice = job->from->has_lattice;
     return status;
 }
@@ -232,7 +238,7 @@ static void reweigh(const reoptic *job, uint32_t i, uint32_t j) {
     }
     node.f = f;
     node.t = t;
-    if (!from->info.has_bounce) {
+    if (!follows_light(from)) {
         scale_errors(job, basis, s, &node);
     }
     set_flags(&from->info.params, &node);

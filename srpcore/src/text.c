@@ -343,13 +343,13 @@ char *srp_token_copy(srp_token token) {
     return copy;
 }
 
-/* Bytes of the printable character at `p`: 1 for ASCII, 2 to 4 for well-formed UTF-8 outside the
- * control characters (Unicode 15, table 3-7), 0 for anything else. */
-static size_t printable_length(const char *p, size_t size) {
+/* Bytes of the character at `p`: 1 for ASCII, 2 to 4 for well-formed UTF-8 (Unicode 15, table 3-7),
+ * 0 for anything else. */
+static size_t character_length(const char *p, size_t size) {
     unsigned char c[4] = {0};
     memcpy(c, p, size < 4 ? size : 4);
     if (c[0] < 0x80) {
-        return c[0] >= 0x20 && c[0] != 0x7f ? 1 : 0;
+        return 1;
     }
     size_t length = c[0] < 0xc2 ? 0 : c[0] < 0xe0 ? 2 : c[0] < 0xf0 ? 3 : c[0] < 0xf5 ? 4 : 0;
     for (size_t i = 1; i < length; i++) {
@@ -359,8 +359,49 @@ static size_t printable_length(const char *p, size_t size) {
     }
     bool overlong = (c[0] == 0xe0 && c[1] < 0xa0) || (c[0] == 0xf0 && c[1] < 0x90);
     bool outside = (c[0] == 0xed && c[1] > 0x9f) || (c[0] == 0xf4 && c[1] > 0x8f);
-    bool control = c[0] == 0xc2 && c[1] < 0xa0;
-    return overlong || outside || control ? 0 : length;
+    return overlong || outside ? 0 : length;
+}
+
+/* The same, and 0 for control characters. */
+static size_t printable_length(const char *p, size_t size) {
+    size_t length = character_length(p, size);
+    unsigned first = (unsigned char)p[0], second = length == 2 ? (unsigned char)p[1] : 0xff;
+    bool control = (length == 1 && (first < 0x20 || first == 0x7f)) ||
+                   (length == 2 && first == 0xc2 && second < 0xa0);
+    return control ? 0 : length;
+}
+
+bool srp_token_is_utf8(srp_token token) {
+    size_t i = 0, length = 1;
+    while (i < token.size && length > 0) {
+        length = character_length(token.text + i, token.size - i);
+        i += length;
+    }
+    return length > 0;
+}
+
+char *srp_token_name(srp_token token) {
+    if (srp_token_is_utf8(token)) {
+        return srp_token_copy(token);
+    }
+    char *name = malloc(4 * token.size + 1);
+    size_t used = 0, i = 0;
+    while (name != NULL && i < token.size) {
+        size_t length = character_length(token.text + i, token.size - i);
+        if (length == 0) {
+            snprintf(name + used, 5, "\\x%02x", (unsigned)(unsigned char)token.text[i]);
+            used += 4;
+            i++;
+        } else {
+            memcpy(name + used, token.text + i, length);
+            used += length;
+            i += length;
+        }
+    }
+    if (name != NULL) {
+        name[used] = '\0';
+    }
+    return name;
 }
 
 srp_excerpt srp_token_excerpt(srp_token token) {

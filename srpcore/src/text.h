@@ -93,6 +93,11 @@ bool srp_token_is(srp_token token, const char *word);
 srp_token srp_token_part(srp_token token, size_t begin, size_t end);
 /* A terminated copy, freed by free(); NULL without memory. */
 char *srp_token_copy(srp_token token);
+/* Whether the token is UTF-8 throughout. */
+bool srp_token_is_utf8(srp_token token);
+/* A copy for names that go into tables, which hold UTF-8: a byte that is none becomes the four
+ * characters \xNN, so that different names stay different. Freed by free(); NULL without memory. */
+char *srp_token_name(srp_token token);
 
 /* A token as messages show it: quoted, bounded, bytes that do not print written as \xNN; "the end
  * of the line" for size 0. Use within one expression: srp_token_excerpt(token).text. */

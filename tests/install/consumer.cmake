@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the build to a scratch prefix and builds a project outside the tree against it, through
 # the CMake package and through pkg-config.
-#   cmake -D BUILD=... -D GL=... -D ORBIT=... -D SOURCE=... -D EXAMPLE=... -D MODEL=... -D SCRATCH=... -D CC=... -D CXX=... -D PKG_CONFIG=... -P ...
+#   cmake -D BUILD=... -D GL=... -D ORBIT=... -D SOURCE=... -D EXAMPLES=... -D MODEL=... -D SCRATCH=... -D CC=... -D CXX=... -D PKG_CONFIG=... -P ...
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -16,14 +16,26 @@ set(prefix ${SCRATCH}/prefix)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${SCRATCH}/cmake -G Ninja -D CMAKE_C_COMPILER=${CC}
-    -D CMAKE_CXX_COMPILER=${CXX} -D CMAKE_PREFIX_PATH=${prefix} -D EXAMPLE=${EXAMPLE})
+    -D CMAKE_CXX_COMPILER=${CXX} -D CMAKE_PREFIX_PATH=${prefix} -D EXAMPLES=${EXAMPLES})
 run(${CMAKE_COMMAND} --build ${SCRATCH}/cmake)
 foreach(program consumer_shared consumer_static consumer_cxx)
   run(${SCRATCH}/cmake/${program})
   message(STATUS "${program}: ${output}")
 endforeach()
-run(${SCRATCH}/cmake/example ${MODEL})
-set(example_output "${output}")
+# run_example(PROGRAM): into `output`; the cache of the second example is empty each time.
+function(run_example program)
+  set(ENV{XDG_CACHE_HOME} ${SCRATCH}/cache)
+  file(REMOVE_RECURSE ${SCRATCH}/cache)
+  run(${program} ${MODEL})
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+set(force_on_orbit_says " 180\\.0   0\\.0000 ")
+set(table_on_demand_says "of 64442 directions are known, [1-9]")
+foreach(example force_on_orbit table_on_demand)
+  run_example(${SCRATCH}/cmake/${example})
+  set(${example}_output "${output}")
+endforeach()
 
 foreach(part gl orbit)
   string(TOUPPER ${part} built)
@@ -45,12 +57,15 @@ separate_arguments(flags UNIX_COMMAND "${output}")
 run(${CC} -std=c11 -o ${SCRATCH}/consumer_pc ${SOURCE}/consumer.c ${flags} -lm)
 run(${SCRATCH}/consumer_pc)
 message(STATUS "consumer_pc: ${output}")
-run(${CC} -std=c11 -o ${SCRATCH}/example_pc ${EXAMPLE} ${flags} -lm)
-run(${SCRATCH}/example_pc ${MODEL})
-if(NOT output STREQUAL example_output OR NOT output MATCHES " 180\\.0   0\\.0000 ")
-  message(FATAL_ERROR "the example says ${output}through pkg-config, ${example_output}through CMake")
-endif()
-message(STATUS "example:\n${output}")
+foreach(example force_on_orbit table_on_demand)
+  run(${CC} -std=c11 -o ${SCRATCH}/${example}_pc ${EXAMPLES}/${example}.c ${flags} -lm)
+  run_example(${SCRATCH}/${example}_pc)
+  if(NOT output STREQUAL ${example}_output OR NOT output MATCHES "${${example}_says}")
+    message(FATAL_ERROR
+      "${example} says ${output}through pkg-config, ${${example}_output}through CMake")
+  endif()
+  message(STATUS "${example}:\n${output}")
+endforeach()
 foreach(part gl orbit)
   string(TOUPPER ${part} built)
   if(${built})

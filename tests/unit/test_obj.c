@@ -5,6 +5,7 @@
 #include "polygon.h"
 #include "text.h"
 
+#include <srp/material.h>
 #include <srp/mesh.h>
 
 #include <fcntl.h>
@@ -105,6 +106,32 @@ START_TEST(materials_are_those_of_faces) {
     for (size_t i = 0; i < 4; ++i) {
         ck_assert_uint_eq(srp_mesh_triangle_materials(mesh)[i], want[i]);
     }
+    srp_mesh_destroy(mesh);
+}
+END_TEST
+
+/* The same in both kinds of file, so that optics find their faces. */
+START_TEST(names_that_are_not_utf8_are_spelt_out) {
+    log_keeper keeper = {0};
+    srp_mesh *mesh =
+        parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl caf\xe9 1\nf 1 2 3\nusemtl caf\xe8 1\n"
+              "f 1 2 3\nusemtl caf\xe9 1\nf 1 2 3\n",
+              &keeper);
+    ck_assert_uint_eq(srp_mesh_material_count(mesh), 2);
+    ck_assert_str_eq(srp_mesh_material_name(mesh, 0), "caf\\xe9 1");
+    ck_assert_str_eq(srp_mesh_material_name(mesh, 1), "caf\\xe8 1");
+    ck_assert_uint_eq(srp_mesh_triangle_materials(mesh)[2], 0);
+    ck_assert_uint_eq(keeper.count, 2);
+    ck_assert(log_keeper_has(&keeper, "is not UTF-8: it is read as 'caf\\xe9 1'"));
+    srp_materials *materials = NULL;
+    srp_error error;
+    srp_optics optics;
+    const char text[] = "newmtl caf\xe9 1\nrho_s 0.13\nrho_d 0.27\n";
+    assert_ok(srp_materials_create(&materials, &error), error);
+    assert_ok(srp_materials_parse_mtl(materials, text, strlen(text), "f.mtl", NULL, &error), error);
+    ck_assert(srp_materials_find(materials, srp_mesh_material_name(mesh, 0), &optics));
+    ck_assert_double_eq(optics.rho_d, 0.27);
+    srp_materials_destroy(materials);
     srp_mesh_destroy(mesh);
 }
 END_TEST
@@ -433,6 +460,7 @@ int main(void) {
     TCase *tcase = tcase_create("obj");
     tcase_add_test(tcase, all_spellings_give_the_same_mesh);
     tcase_add_test(tcase, materials_are_those_of_faces);
+    tcase_add_test(tcase, names_that_are_not_utf8_are_spelt_out);
     tcase_add_test(tcase, libraries_are_found_beside_the_file);
     tcase_add_test(tcase, polygons_are_split_and_counted);
     tcase_add_test(tcase, units_scale_the_vertices);

@@ -254,6 +254,29 @@ START_TEST(excerpts_are_printable_and_bounded) {
 }
 END_TEST
 
+START_TEST(names_become_utf8) {
+    static const struct {
+        const char *bytes, *name;
+    } names[] = {
+        {"gold foil", "gold foil"},
+        {"Folie \xc3\xa9\xe2\x82\xac\xf0\x9f\x9b\xb0\tb",
+         "Folie \xc3\xa9\xe2\x82\xac\xf0\x9f\x9b\xb0\tb"},
+        {"caf\xe9", "caf\\xe9"},
+        {"\xe9\xe9t\xe9", "\\xe9\\xe9t\\xe9"},
+        {"\xc0\x80 \xed\xa0\x80", "\\xc0\\x80 \\xed\\xa0\\x80"}, /* overlong, a surrogate */
+        {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80"},            /* beyond Unicode */
+        {"\xe2\x82", "\\xe2\\x82"},                              /* cut short */
+    };
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; ++k) {
+        srp_token token = {.text = names[k].bytes, .size = strlen(names[k].bytes)};
+        char *name = srp_token_name(token);
+        ck_assert_str_eq(name, names[k].name);
+        ck_assert_int_eq(srp_token_is_utf8(token), k < 2);
+        free(name);
+    }
+}
+END_TEST
+
 START_TEST(what_is_no_text_is_refused) {
     srp_text text;
     srp_error error;
@@ -306,6 +329,7 @@ int main(void) {
     tcase_add_test(tcase, integers_keep_to_their_range);
     tcase_add_test(tcase, complaints_name_the_place);
     tcase_add_test(tcase, excerpts_are_printable_and_bounded);
+    tcase_add_test(tcase, names_become_utf8);
     tcase_add_test(tcase, what_is_no_text_is_refused);
     tcase_add_test(tcase, files_are_read_or_refused);
     suite_add_tcase(suite, tcase);

@@ -141,9 +141,10 @@ SRP_API double srp_table_pull_share(const srp_table *table);
  *                not known there, keeps its own. Which sides a material has was settled when the
  *                sums were made: one_sided = false leaves it as it is.
  *   keep_bounce  what to do about light that was reflected before, which is not linear in the
- *                optics. False: a table with such a part (has_bounce) is refused. True: that part,
- *                its standard error and the unresolved flux stay as traced, and bounce_kept of the
- *                result says so
+ *                optics. False: a table with such a part (has_bounce, and params.reflections not 0)
+ *                is refused. True: that part, its standard error and the unresolved flux stay as
+ *                traced, and bounce_kept of the result says so. With no reflections the unresolved
+ *                flux alone is what the traced optics sent on
  * The result keeps the sums, so that it can be given other optics again. It has the optics' hash of
  * its new optics, traced_optics_hash names those that the sums were made with, and it cannot be
  * filled further (srp_table_check_origin). command_line is "" until described. Areas and samples
