@@ -264,18 +264,23 @@ void srp_interp_fit_slopes(srp_interp *interp) {
 /* ---- Making and ending ---------------------------------------------------------------------- */
 
 void srp_interp_set_grid(srp_interp *interp, uint32_t columns, uint32_t rows) {
-    static const double AZ_BASE[4] = {0.5, 0.5, 1.0, 0.0}; /* turns */
+    /* Quarters of a turn and halves of the way from pole to pole. */
+    static const double AZ_BASE[8] = {2, 2, 4, 0, 3, 1, 3, 1};
+    static const double AZ_SIGN[8] = {1, -1, -1, 1, -1, 1, 1, -1};
+    static const double EL_BASE[4] = {1, 1, 2, 0};
+    static const double EL_SIGN[4] = {1, -1, -1, 1};
     interp->columns = columns;
     interp->rows = rows;
     interp->columns_per_rad = columns / (2.0 * SRP_PI);
     interp->rows_per_rad = rows / SRP_PI;
-    /* Of half the angles. */
-    for (int k = 0; k < 4; ++k) {
-        interp->az_base[k] = AZ_BASE[k] * columns;
-        interp->az_scale[k] = (k < 2 ? 2.0 : -2.0) * interp->columns_per_rad;
+    for (int k = 0; k < 8; ++k) {
+        interp->az_base[k] = 0.25 * AZ_BASE[k] * columns;
+        interp->az_scale[k] = AZ_SIGN[k] * interp->columns_per_rad;
     }
-    interp->el_base = 0.5 * rows;
-    interp->el_scale = 2.0 * interp->rows_per_rad;
+    for (int k = 0; k < 4; ++k) {
+        interp->el_base[k] = 0.5 * EL_BASE[k] * rows;
+        interp->el_scale[k] = EL_SIGN[k] * interp->rows_per_rad;
+    }
 }
 
 /* Memory for the nodes; srp_interp_destroy() gives it back whatever else fails. */

@@ -31,7 +31,7 @@ struct srp_interp {
     double columns_per_rad, rows_per_rad;
     /* Azimuth in columns from -180 degrees is az_base + az_scale times an arc tangent, by 2 (x <
      * 0), 1 (y < 0); elevation in rows from -90 likewise. */
-    double az_base[4], az_scale[4], el_base, el_scale;
+    double az_base[8], az_scale[8], el_base[4], el_scale[4];
     /* (columns + 3, rows + 3, width): column i of the grid is at i + 1 and row j at j + 1, with one
      * more of each before the first and behind the last. Columns repeat; the rows beyond the poles
      * are the scheme's. Nodes, or what the scheme has made of them. */

@@ -2,11 +2,13 @@
 /*
  * From a direction to its place in the grid. Internal; compiled into the look-up of each scheme.
  *
- * Both angles are twice an arc tangent of at most 45 degrees: tan(el / 2) = z / (1 + h) and, in the
- * half of the turn where x > 0, tan(az / 2) = y / (h + x), with h the distance from the axis. One
- * root and two quotients that do not wait for each other; arc tangents from a table of polynomials,
- * one for each 1/64 of the argument. Nothing is branched on that a random direction would make the
- * processor guess wrong. What is lost is a few roundings of the angle.
+ * A look-up mostly waits for one number after the other, and so azimuth and elevation do not wait
+ * for each other, and each for one root or one quotient alone. Azimuth is the arc tangent of the
+ * smaller over the larger of |x| and |y|, by polynomials, one for each 1/64. Elevation is that of a
+ * nearby angle whose sine and cosine are known, found by the square of the smaller of |z| and the
+ * distance from the axis while the root of the other is taken, and the arc sine of the little rest.
+ * Nothing is branched on that a random direction would make the processor guess wrong. What is lost
+ * is a few roundings of the angle; near the poles, of the distance from them.
  */
 #ifndef SRP_SRC_INTERP_LOCATE_H
 #define SRP_SRC_INTERP_LOCATE_H
@@ -15,18 +17,36 @@
 #include "interp_internal.h"
 
 #include <math.h>
+#include <string.h>
 
-/* Row SRP_INTERP_ARC_ONE + k: k, and coefficients of powers 0 to 6 of x - k in atan(x / 64), |x -
- * k|
- * <= 1/2: a polynomial through Chebyshev's points, right to 5e-17; the middle one is odd. */
-enum { SRP_INTERP_ARC_ONE = 64, SRP_INTERP_ARCS = 129, SRP_INTERP_ARC_SIZE = 8 };
-extern const double srp_interp_arc[SRP_INTERP_ARCS][SRP_INTERP_ARC_SIZE];
+/* Around k / 64: coefficients of powers 0 to 6 of the arc tangent, a polynomial through Chebyshev's
+ * points up to 1/128 away, right to 5e-17; the first one is odd. */
+enum { SRP_INTERP_ARCS = 65 };
+extern const double srp_interp_arc[SRP_INTERP_ARCS][8];
 
-/* Arc tangent [rad] of x / 64, x in [-64, 64] but for a few roundings. */
+/* Arc tangent [rad] of x in [0, 1]. */
 SRP_CLONE_PART double srp_interp_atan(double x) {
-    const double *a = srp_interp_arc[SRP_INTERP_ARC_ONE + lrint(x)];
-    const double d = x - a[0], dd = d * d;
-    return ((a[1] + a[2] * d) + dd * (a[3] + a[4] * d)) + dd * dd * ((a[5] + a[6] * d) + dd * a[7]);
+    /* Numbers of this size are multiples of 1/64: the sum is rounded to one, its last bits count.
+     */
+    const double multiples = 0x1.8p46, shifted = x + multiples;
+    uint64_t bits;
+    memcpy(&bits, &shifted, sizeof bits);
+    const double *a = srp_interp_arc[bits & 127];
+    const double d = x - (shifted - multiples), dd = d * d;
+    return (a[0] + a[1] * d) + dd * ((a[2] + a[3] * d) + dd * ((a[4] + a[5] * d) + dd * a[6]));
+}
+
+/* Sine, cosine and angle [rad] up to 45 degrees; row k is for squares of sines that, with 2^-12
+ * added, begin with the same 5 bits: 32 rows from one power of 2 to the next. */
+enum { SRP_INTERP_SINES = 353 };
+extern const double srp_interp_sine[SRP_INTERP_SINES][4];
+
+SRP_CLONE_PART const double *srp_interp_sine_near(double square) {
+    const double least = 0x1p-12, shifted = square + least;
+    uint64_t bits, least_bits;
+    memcpy(&bits, &shifted, sizeof bits);
+    memcpy(&least_bits, &least, sizeof least_bits);
+    return srp_interp_sine[(bits >> 47) - (least_bits >> 47)];
 }
 
 /* `u` steps from the first node: cell, of `count`, and place in it. */
@@ -36,27 +56,41 @@ SRP_CLONE_PART uint32_t srp_interp_cell(double u, uint32_t count, double *rest) 
     return (uint32_t)cell;
 }
 
+/* Azimuth in columns. */
+SRP_CLONE_PART double srp_interp_columns(const srp_interp *interp, double x, double y) {
+    const double c = fabs(x), s = fabs(y), low = s < c ? s : c, high = c < s ? s : c;
+    const int k = 4 * (s > c) + 2 * (x < 0.0) + (y < 0.0);
+    return interp->az_base[k] + interp->az_scale[k] * srp_interp_atan(low / high);
+}
+
+/* Elevation in rows: `h` is the root of `square`, `unit` makes both and z those of a unit vector.
+ */
+SRP_CLONE_PART double srp_interp_rows(const srp_interp *interp, double z, double h, double square,
+                                      double unit) {
+    const double zz = z * z, s = fabs(z);
+    const double *near = srp_interp_sine_near(zz < square ? zz : square);
+    const int k = 2 * (zz > square) + (z < 0.0);
+    const double low = zz > square ? h : s, high = zz > square ? s : h;
+    const double d = near[1] * low - near[0] * high, dd = d * d;
+    return (interp->el_base[k] + interp->el_scale[k] * near[2]) +
+           interp->el_scale[k] * unit * (d + d * dd * (1.0 / 6.0 + dd * (3.0 / 40.0)));
+}
+
 /* False unless `s` is a unit vector (to 1e-9, as srp_prepared_respond() takes it). Roots and
  * quotients wait for as little as can be: that is what a look-up spends its time on. */
 SRP_CLONE_PART bool srp_interp_locate(const srp_interp *interp, const srp_vec3 *s,
                                       srp_interp_place *place) {
-    const double square = s->x * s->x + s->y * s->y;
+    const double at_pole = 1e-300, square = s->x * s->x + s->y * s->y;
     const double excess = square + s->z * s->z - 1.0;
     if (!(fabs(excess) <= 2e-9)) {
         return false;
     }
-    const double unit = 1.0 - 0.5 * excess, norm = 1.0 + 0.5 * excess;
-    /* Closer to a pole than the root of this, squares of coordinates lose digits; nothing changes
-     * there, and azimuth is 0. */
-    const double at_pole = 1e-300;
+    const double unit = 1.0 - 0.5 * excess;
     const bool at = !(square > at_pole);
     const double x = at ? 1.0 : s->x, y = at ? 0.0 : s->y, h = at ? 0.0 : sqrt(square);
-    const double az = srp_interp_atan(SRP_INTERP_ARC_ONE * y / (h + fabs(x)));
-    const double el = srp_interp_atan(SRP_INTERP_ARC_ONE * s->z / (norm + h));
-    const int half = 2 * (x < 0.0) + (y < 0.0);
-    place->i = srp_interp_cell(interp->az_base[half] + interp->az_scale[half] * az, interp->columns,
-                               &place->p);
-    place->j = srp_interp_cell(interp->el_base + interp->el_scale * el, interp->rows, &place->q);
+    place->i = srp_interp_cell(srp_interp_columns(interp, x, y), interp->columns, &place->p);
+    place->j =
+        srp_interp_cell(srp_interp_rows(interp, s->z, h, square, unit), interp->rows, &place->q);
     place->s = srp_vec3_make(s->x * unit, s->y * unit, s->z * unit);
     place->cos_el = h * unit;
     return true;
@@ -72,7 +106,7 @@ SRP_CLONE_PART int srp_interp_pole_at(const srp_interp *interp, const srp_interp
 
 /* Distance from the nearest pole [rad], without loss near it. */
 SRP_CLONE_PART double srp_interp_theta(const srp_interp_place *place) {
-    return 2.0 * srp_interp_atan(SRP_INTERP_ARC_ONE * place->cos_el / (1.0 + fabs(place->s.z)));
+    return 2.0 * srp_interp_atan(place->cos_el / (1.0 + fabs(place->s.z)));
 }
 
 /* Cosine and sine of azimuth. */
