@@ -119,11 +119,15 @@ START_TEST(whoever_is_killed_leaves_a_cache_that_others_complete) {
     counting.delay_us = 2000; /* some time without the lock for everybody */
     srp_cache *cache = open_cache(&params);
     srp_demand *survivor = make_demand(&fixture, cache);
+    /* A file is there from the beginning, whoever is killed first. */
+    const srp_demand_node pole = {0, 0};
+    srp_error error;
+    assert_ok(srp_demand_need(survivor, 1, &pole, &error), error);
+    assert_ok(srp_demand_flush(survivor, &error), error);
     srp_table *before = committed(&fixture);
     int *times = calloc(srp_grid_node_count(grid), sizeof *times);
     uint64_t state = (uint64_t)getpid();
     int drafts = 0;
-    srp_error error;
     for (int kill_number = 0; kill_number < KILLS; ++kill_number) {
         for (size_t k = 0; k < srp_grid_node_count(grid); ++k) {
             times[k] = atomic_load(&counting.answered[k]);
