@@ -17,7 +17,6 @@
 enum { SIDE = 320 };
 
 static const srp_optics OPTICS = {0.37, 0.21, false};
-static const srp_render_colour RED = {1.0F, 0.0F, 0.0F};
 static const srp_render_colour MAP[2] = {{0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}};
 
 /* A square picture from (az, el) in degrees with the Sun at `sun`, without edges and soft pixels,
@@ -182,7 +181,8 @@ static void middle_colour(const srp_scene *scene, const srp_render_view *view, u
 }
 
 START_TEST(colours_are_those_of_the_map) {
-    static const srp_render_colour map[3] = {{0.0F, 0.0F, 1.0F}, {0.0F, 1.0F, 0.0F}, RED};
+    static const srp_render_colour map[3] = {
+        {0.0F, 0.0F, 1.0F}, {0.0F, 1.0F, 0.0F}, {1.0F, 0.0F, 0.0F}};
     srp_scene *scene =
         shape_scene(shape_box(srp_vec3_make(-1, -1, -1), srp_vec3_make(1, 1, 1), "a"), OPTICS);
     double values[12], shown[12];
