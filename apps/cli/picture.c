@@ -91,9 +91,11 @@ static void add_marks(const cli_portrait *portrait, cli_panel_view *panel, srp_v
                         reach_from(scene, from.at, along) + 1.6 * more, FORCE_COLOUR);
     }
     if (with_sun) {
-        double reach = reach_from(scene, from.at, sun);
-        cli_mark mark = {"Sun", srp_vec3_add_scaled(from.at, reach + 1.8 * more, sun),
-                         srp_vec3_add_scaled(from.at, reach + 0.3 * more, sun), SUN_COLOUR};
+        /* Beyond the tip of an axis that it would cover. */
+        bool on_axis = fmax(fmax(sun.x, sun.y), sun.z) > 0.99;
+        double tip = reach_from(scene, from.at, sun) + (on_axis ? 1.9 : 0.3) * more;
+        cli_mark mark = {"Sun", srp_vec3_add_scaled(from.at, tip + 1.5 * more, sun),
+                         srp_vec3_add_scaled(from.at, tip, sun), SUN_COLOUR};
         add_mark(panel, arrows, &mark, SUN_WORD);
         /* The word stands at the tail. */
         cli_mark *last = &panel->marks[panel->mark_count - 1];
@@ -207,7 +209,10 @@ static int set_up(const cli_portrait *portrait, studio *s) {
         view->map_count = CLI_PALETTE_SIZE;
         view->background = (srp_render_colour){0.97F, 0.97F, 0.98F};
         for (size_t j = 0; j < panel->mark_count; ++j) {
-            s->arrows[k][j].width = fmax(fmin(view->height, view->width) / 200.0, 1.0);
+            /* The force covers an axis that it lies on. */
+            double width = fmax(fmin(view->height, view->width) / 200.0, 1.0);
+            bool is_force = strcmp(panel->marks[j].word, "f") == 0;
+            s->arrows[k][j].width = (is_force ? 1.4 : 1.0) * width;
         }
         view->arrows = s->arrows[k];
         view->arrow_count = panel->mark_count;

@@ -94,7 +94,7 @@ START_TEST(the_sun_sees_no_shadow) {
         double area = (double)(all.lit + all.dark) * pixel * pixel;
         double want = respond_to(prepared, sun).lit_area;
         /* Pixels whose middle is within 0.005 of an outline may be of what lies behind it. */
-        ck_assert_msg(all.dark <= 8, "%s from %.1f, %.1f: %zu of %zu pixels are dark", name, az, el,
+        ck_assert_msg(all.dark <= 3, "%s from %.1f, %.1f: %zu of %zu pixels are dark", name, az, el,
                       all.dark, all.lit);
         assert_close(area, want, 0.015, 4.0 * pixel * pixel);
     }
