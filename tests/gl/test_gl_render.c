@@ -93,8 +93,8 @@ START_TEST(the_sun_sees_no_shadow) {
         double pixel = 2.0 * view.camera.half_height / SIDE;
         double area = (double)(all.lit + all.dark) * pixel * pixel;
         double want = respond_to(prepared, sun).lit_area;
-        /* OpenGL places corners to 1/256 of a pixel: on an outline, a dark facet that turns away may
-         * show. Of twenty directions for each model, the worst had five such pixels. */
+        /* OpenGL places corners to 1/256 of a pixel: on an outline, a dark facet that turns away
+         * may show. Of twenty directions for each model, the worst had five such pixels. */
         ck_assert_msg(all.dark <= 8, "%s from %.1f, %.1f: %zu of %zu pixels are dark", name, az, el,
                       all.dark, all.lit);
         assert_close(area, want, 0.015, 4.0 * pixel * pixel);
