@@ -242,8 +242,8 @@ static int render(const cli_portrait *portrait, studio *s) {
         status = SRP_OK;
     }
     if (status == SRP_NOT_FOUND) {
-        return cli_usage_error("--device %s: expected gl:osmesa, gl:egl or gl:egl:N, N from 0 to 15",
-                               device);
+        return cli_usage_error(
+            "--device %s: expected gl:osmesa, gl:egl or gl:egl:N, N from 0 to 15", device);
     }
     return status == SRP_OK ? CLI_DONE : cli_input_error(&error);
 }
