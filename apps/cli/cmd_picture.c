@@ -199,14 +199,14 @@ static char *make_title(const picture_options *options, const cli_operands *oper
         size += strlen(operands->items[k]) + 3;
     }
     char *title = malloc(size);
+    size_t used = 0;
+    for (size_t k = 0; title != NULL && k < operands->count; ++k) {
+        const char *slash = strrchr(operands->items[k], '/');
+        used += (size_t)snprintf(title + used, size - used, "%s%s", k > 0 ? " + " : "",
+                                 slash != NULL ? slash + 1 : operands->items[k]);
+    }
     if (title != NULL) {
-        title[0] = '\0';
-        for (size_t k = 0; k < operands->count; ++k) {
-            const char *slash = strrchr(operands->items[k], '/');
-            strcat(title, k > 0 ? " + " : "");
-            strcat(title, slash != NULL ? slash + 1 : operands->items[k]);
-        }
-        strcat(title, sun);
+        snprintf(title + used, size - used, "%s", sun);
     }
     return title;
 }

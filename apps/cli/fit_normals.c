@@ -108,7 +108,8 @@ static int read_line(const char *path, size_t number, char *line, cli_normals *o
     }
     double length = count == 3 ? srp_vec3_norm(srp_vec3_make(v[0], v[1], v[2])) : 0.0;
     if (!(length > 0.0) || !isfinite(length)) {
-        fprintf(stderr, "%s:%zu: expected the three finite numbers of a normal, not all of them 0\n", path,
+        fprintf(stderr,
+                "%s:%zu: expected the three finite numbers of a normal, not all of them 0\n", path,
                 number);
         return CLI_BAD_INPUT;
     }

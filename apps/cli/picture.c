@@ -24,45 +24,83 @@ int cli_portrait_check(void) {
 
 /* ---- arrows ---- */
 
-/* Arrows end this share of the scene's radius outside of it. */
+/* Arrows end this share of the scene's size outside of it. */
 static const double BEYOND = 0.22;
 
-static void add_mark(cli_panel_view *panel, srp_render_arrow *arrows, const char *word,
-                     srp_vec3 from, srp_vec3 to, srp_render_colour colour,
-                     srp_render_colour word_colour) {
-    arrows[panel->mark_count] = (srp_render_arrow){.from = from, .to = to, .colour = colour};
-    panel->marks[panel->mark_count++] = (cli_mark){word, from, to, word_colour};
+/* Where arrows begin, and how large the scene is about it. */
+typedef struct anchor {
+    srp_vec3 at; /* [m] */
+    double size; /* [m] */
+} anchor;
+
+/* The origin of the body, or the middle of a scene that is far from it. */
+static anchor find_anchor(const srp_scene *scene) {
+    static const double FAR = 4.0; /* in units of half the diagonal of the scene's box */
+    double low[3], high[3];
+    for (int k = 0; k < 3; ++k) {
+        srp_vec3 axis = {k == 0, k == 1, k == 2};
+        high[k] = srp_render_reach(scene, axis);
+        low[k] = -srp_render_reach(scene, srp_vec3_scale(-1.0, axis));
+    }
+    srp_vec3 sum = {low[0] + high[0], low[1] + high[1], low[2] + high[2]};
+    srp_vec3 diagonal = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+    anchor out = {{0.0, 0.0, 0.0}, 0.5 * srp_vec3_norm(diagonal)};
+    if (0.5 * srp_vec3_norm(sum) > FAR * out.size) {
+        out.at = srp_vec3_scale(0.5, sum);
+    } else {
+        out.size = fmin(out.size, srp_scene_radius(scene));
+    }
+    return out;
+}
+
+static double reach_from(const srp_scene *scene, srp_vec3 at, srp_vec3 direction) {
+    return fmax(srp_render_reach(scene, direction) - srp_vec3_dot(at, direction), 0.0);
+}
+
+static void add_mark(cli_panel_view *panel, srp_render_arrow *arrows, const cli_mark *mark,
+                     srp_render_colour word) {
+    arrows[panel->mark_count] =
+        (srp_render_arrow){.from = mark->from, .to = mark->to, .colour = mark->colour};
+    panel->marks[panel->mark_count] = *mark;
+    panel->marks[panel->mark_count++].colour = word;
+}
+
+static void add_from_anchor(cli_panel_view *panel, srp_render_arrow *arrows, const char *word,
+                            const anchor *from, srp_vec3 direction, double length,
+                            srp_render_colour colour) {
+    cli_mark mark = {word, from->at, srp_vec3_add_scaled(from->at, length, direction), colour};
+    add_mark(panel, arrows, &mark, colour);
 }
 
 /* Axes and force, and at the side where the light comes from. */
 static void add_marks(const cli_portrait *portrait, cli_panel_view *panel, srp_vec3 sun,
                       bool with_sun, srp_render_arrow *arrows) {
     static const char *const NAMES[3] = {"x", "y", "z"};
-    static const srp_vec3 ORIGIN = {0.0, 0.0, 0.0};
     const srp_scene *scene = portrait->scene;
-    double more = BEYOND * srp_scene_radius(scene);
+    anchor from = find_anchor(scene);
+    double more = BEYOND * from.size;
     for (int k = 0; k < 3; ++k) {
         srp_vec3 axis = {k == 0, k == 1, k == 2};
-        double length = fmax(srp_render_reach(scene, axis), 0.0) + more;
-        srp_render_colour colour = srp_render_axis_colour(k);
-        add_mark(panel, arrows, NAMES[k], ORIGIN, srp_vec3_scale(length, axis), colour, colour);
+        add_from_anchor(panel, arrows, NAMES[k], &from, axis,
+                        reach_from(scene, from.at, axis) + more, srp_render_axis_colour(k));
     }
     double size = srp_vec3_norm(portrait->response.f);
     if (size > 0.0) {
         srp_vec3 along = srp_vec3_scale(1.0 / size, portrait->response.f);
-        double length = fmax(srp_render_reach(scene, along), 0.0) + 1.6 * more;
-        add_mark(panel, arrows, "f", ORIGIN, srp_vec3_scale(length, along), FORCE_COLOUR,
-                 FORCE_COLOUR);
+        add_from_anchor(panel, arrows, "f", &from, along,
+                        reach_from(scene, from.at, along) + 1.6 * more, FORCE_COLOUR);
     }
     if (with_sun) {
-        double reach = fmax(srp_render_reach(scene, sun), 0.0);
-        add_mark(panel, arrows, "Sun", srp_vec3_scale(reach + 1.8 * more, sun),
-                 srp_vec3_scale(reach + 0.3 * more, sun), SUN_COLOUR, SUN_WORD);
+        /* Beyond the tip of an axis that it would cover. */
+        bool on_axis = fmax(fmax(sun.x, sun.y), sun.z) > 0.99;
+        double tip = reach_from(scene, from.at, sun) + (on_axis ? 1.9 : 0.3) * more;
+        cli_mark mark = {"Sun", srp_vec3_add_scaled(from.at, tip + 1.5 * more, sun),
+                         srp_vec3_add_scaled(from.at, tip, sun), SUN_COLOUR};
+        add_mark(panel, arrows, &mark, SUN_WORD);
         /* The word stands at the tail. */
-        cli_mark *mark = &panel->marks[panel->mark_count - 1];
-        srp_vec3 tip = mark->to;
-        mark->to = mark->from;
-        mark->from = tip;
+        cli_mark *last = &panel->marks[panel->mark_count - 1];
+        last->to = mark.from;
+        last->from = mark.to;
     }
 }
 
@@ -171,7 +209,10 @@ static int set_up(const cli_portrait *portrait, studio *s) {
         view->map_count = CLI_PALETTE_SIZE;
         view->background = (srp_render_colour){0.97F, 0.97F, 0.98F};
         for (size_t j = 0; j < panel->mark_count; ++j) {
-            s->arrows[k][j].width = fmax(fmin(view->height, view->width) / 200.0, 1.0);
+            /* The force covers an axis that it lies on. */
+            double width = fmax(fmin(view->height, view->width) / 200.0, 1.0);
+            bool is_force = strcmp(panel->marks[j].word, "f") == 0;
+            s->arrows[k][j].width = (is_force ? 1.4 : 1.0) * width;
         }
         view->arrows = s->arrows[k];
         view->arrow_count = panel->mark_count;
@@ -201,8 +242,8 @@ static int render(const cli_portrait *portrait, studio *s) {
         status = SRP_OK;
     }
     if (status == SRP_NOT_FOUND) {
-        return cli_usage_error("--device %s: expected gl:osmesa, gl:egl or gl:egl:N, N from 0 to 15",
-                               device);
+        return cli_usage_error(
+            "--device %s: expected gl:osmesa, gl:egl or gl:egl:N, N from 0 to 15", device);
     }
     return status == SRP_OK ? CLI_DONE : cli_input_error(&error);
 }

@@ -171,7 +171,8 @@ static void draw_materials(const cli_page *page, cairo_t *to, double top) {
     size_t room = columns * LEGEND_ROWS;
     for (size_t k = 0; k < count && k < room; ++k) {
         char text[320];
-        double x = edge + width * (double)(k / LEGEND_ROWS);
+        size_t column = k / LEGEND_ROWS;
+        double x = edge + width * (double)column;
         double y = top + ((double)(k % LEGEND_ROWS) + 0.5) * LEGEND_ROW * page->unit;
         words w = {.text = text,
                    .x = x + 1.5 * WORDS * page->unit,

@@ -58,13 +58,32 @@ static bool says_nothing(const char *property, size_t size, bool bevelled) {
     return bevelled && strncmp(property, "stroke-miterlimit:", 18) == 0;
 }
 
+/* Numbers of a text in the order of `pattern`, where each '#' stands for one and a blank for any
+ * blanks; returns where the text goes on, NULL: it is not so. */
+static const char *read_pattern(const char *text, const char *pattern, double *number) {
+    for (; *pattern != '\0'; ++pattern) {
+        if (*pattern == '#') {
+            char *end;
+            *number++ = strtod(text, &end);
+            if (end == text) {
+                return NULL;
+            }
+            text = end;
+        } else if (*pattern == ' ') {
+            text += strspn(text, " ");
+        } else if (*text++ != *pattern) {
+            return NULL;
+        }
+    }
+    return text;
+}
+
 /* "fill:rgb(a%,b%,c%)" as "fill:#aabbcc", anything else as it is. */
 static void add_property(draft *to, const char *property, size_t size) {
     double share[3];
     char hex[8];
     const char *value = memchr(property, ':', size);
-    if (value != NULL &&
-        sscanf(value, ":rgb(%lf%%,%lf%%,%lf%%)", &share[0], &share[1], &share[2]) == 3) {
+    if (value != NULL && read_pattern(value, ":rgb(#%,#%,#%)", share) == property + size) {
         add(to, property, (size_t)(value - property) + 1);
         snprintf(hex, sizeof hex, "#%02x%02x%02x", (unsigned)lround(2.55 * share[0]) & 255u,
                  (unsigned)lround(2.55 * share[1]) & 255u,
@@ -114,22 +133,18 @@ static bool add_points(draft *to, const char *d, size_t size, double height) {
     }
     bool lifted = true;
     while (d < end) {
-        double x, y;
-        int used = 0;
-        if (*d != 'M' && *d != 'L') {
-            return false;
-        }
+        double p[2];
         bool moves = *d == 'M';
-        if (sscanf(d + 1, " %lf %lf %n", &x, &y, &used) != 2 || used == 0 ||
-            d + 1 + used > end + 1) {
+        const char *next = moves || *d == 'L' ? read_pattern(d + 1, " # # ", p) : NULL;
+        if (next == NULL || next > end) {
             return false;
         }
         add_text(to, moves ? "M" : lifted ? "L" : " ");
-        add_number(to, x);
+        add_number(to, p[0]);
         add_text(to, " ");
-        add_number(to, isnan(height) ? y : height - y);
+        add_number(to, isnan(height) ? p[1] : height - p[1]);
         lifted = false;
-        d += 1 + used;
+        d = next;
     }
     return true;
 }
@@ -139,12 +154,10 @@ static bool add_points(draft *to, const char *d, size_t size, double height) {
 /* The height of "matrix(1,0,0,-1,0,HEIGHT)", NAN where there is no transform; false: another. */
 static bool height_of(const char *line, double *height) {
     size_t size;
-    int used = 0;
     const char *transform = attribute(line, " transform=\"", &size);
     *height = NAN;
     return transform == NULL ||
-           (sscanf(transform, "matrix(1,0,0,-1,0,%lf)%n", height, &used) == 1 &&
-            (size_t)used == size);
+           read_pattern(transform, "matrix(1,0,0,-1,0,#)", height) == transform + size;
 }
 
 /* False: the line stays as it is. */

@@ -79,7 +79,7 @@ bool srp_render_corners_reserve(srp_render_corners *corners, size_t more);
 void srp_render_corners_add(srp_render_corners *corners, srp_vec3 position, srp_vec3 normal,
                             uint32_t paint);
 /* Sends what has been collected. */
-void srp_render_batch_fill(srp_renderer *renderer, int batch, GLenum usage);
+void srp_render_batch_fill(srp_renderer *renderer, int index, GLenum usage);
 
 /* ---- render_body.c: the scene ---- */
 

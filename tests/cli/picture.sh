@@ -91,6 +91,15 @@ END
 expect 0 picture edge.obj --material sheet=0.1,0.2 --az 90 --el 0 -o edge.png --light force
 silent
 
+# A model far from the origin of the body is as large in the picture as one about it.
+expect 0 picture "$MODELS/cube.obj" --az 35 --el 40 -o near.png --size 800x480 --title same
+awk '$1 == "v" { printf "v %.17g %s %s\n", $2 + 1e6, $3, $4; next } { print }' "$MODELS/cube.obj" > far.obj
+cp "$MODELS/cube.mtl" .
+expect 0 picture far.obj --az 35 --el 40 -o far.png --size 800x480 --title same
+size=$("$FIGURE_COMPARE" reduce near.png small.png && "$FIGURE_COMPARE" compare far.png small.png) || true
+echo "near and far: $size"
+awk '{ exit !($3 < 3) }' <<< "$size" || fail "far from the origin: $size"
+
 # What replaces a picture is whole; what fails leaves the old one.
 cp a.png keep.png
 expect 1 picture none.obj --az 1 --el 1 -o keep.png
