@@ -7,7 +7,7 @@
 #   scripts/install-deps.sh [build] [test] [ci] [gl]     default: build test
 set -euo pipefail
 
-BUILD=(gcc g++ cmake ninja-build pkg-config libc6-dev libnetcdf-dev libxxhash-dev)
+BUILD=(gcc g++ cmake ninja-build pkg-config libc6-dev libnetcdf-dev libhdf5-dev libxxhash-dev)
 # For plates that are fitted, figures and pictures; CMake goes on without them.
 BUILD+=(libgsl-dev libplplot-dev plplot-driver-cairo libpango1.0-dev)
 # The propagator: sky and time scales, mission files. Without them, too, the rest is built.

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The format's description of itself, shared by its writer and its reader. */
+/* What the writer and the reader of the format share: its description of itself, and their turns.
+ */
 #include "table_netcdf.h"
+
+#include "platform.h"
+
+#include <hdf5.h>
 
 #define RESPONSE(member) offsetof(srp_response, member)
 #define BASIS(member) offsetof(srp_basis, member)
@@ -96,3 +101,14 @@ const srp_table_format srp_table_format_netcdf = {
     .write = srp_table_netcdf_write,
     .read = srp_table_netcdf_read,
 };
+
+void srp_table_netcdf_enter(void) {
+    srp_platform_netcdf_enter();
+    /* HDF5 prints errors until it is told not to, by each thread. NetCDF, which asks it for things
+     * that may not be there, tells it in the first thread only. */
+    (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}
+
+void srp_table_netcdf_leave(void) {
+    srp_platform_netcdf_leave();
+}

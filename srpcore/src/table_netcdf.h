@@ -70,6 +70,10 @@ extern const srp_text_attribute srp_table_texts[SRP_TEXT_ATTRIBUTE_COUNT];
 /* Attributes that hold the errors of srp_table_check, in the order of its schemes. */
 extern const char *const srp_table_check_names[SRP_TABLE_SCHEMES];
 
+/* From one to the other this thread has NetCDF for itself, and HDF5 beneath it prints nothing. */
+void srp_table_netcdf_enter(void);
+void srp_table_netcdf_leave(void);
+
 srp_status srp_table_netcdf_write(const srp_table *table, const char *path, srp_error *error);
 srp_status srp_table_netcdf_read(const char *path, srp_table **out, srp_error *error);
 

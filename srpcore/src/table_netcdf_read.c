@@ -570,9 +570,9 @@ srp_status srp_table_netcdf_read(const char *path, srp_table **out, srp_error *e
     }
     status = check_trailer(&in, bytes);
     if (status == SRP_OK) {
-        srp_platform_netcdf_enter();
+        srp_table_netcdf_enter();
         status = read_image(&in, bytes);
-        srp_platform_netcdf_leave();
+        srp_table_netcdf_leave();
     }
     free(bytes);
     if (status != SRP_OK) {

@@ -448,9 +448,9 @@ srp_status srp_table_netcdf_write(const srp_table *table, const char *path, srp_
     if (out.values == NULL) {
         return srp_fail_at(error, SRP_NO_MEMORY, path, 0, 0, "no memory to write the table");
     }
-    srp_platform_netcdf_enter();
+    srp_table_netcdf_enter();
     make_image(&out, &image);
-    srp_platform_netcdf_leave();
+    srp_table_netcdf_leave();
     free(out.values);
     return is_fine(&out) ? save(&image, path, error) : fail_content(&out, path, error);
 }

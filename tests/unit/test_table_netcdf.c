@@ -551,7 +551,7 @@ START_TEST(a_failed_write_leaves_the_old_file) {
 }
 END_TEST
 
-/* Whatever is wrong, it is said through the srp_error alone. */
+/* Whatever is wrong, it is said through the srp_error alone, in whatever thread. */
 START_TEST(libraries_below_are_silent) {
     char path[] = "scratch_silent.nc", log[] = "scratch_silent.log";
     size_t size;
@@ -562,6 +562,13 @@ START_TEST(libraries_below_are_silent) {
         sign(path);
         assert_refused(path, SRP_BAD_FORMAT, "cannot be read as NetCDF-4");
     }
+    int read = 0;
+#pragma omp parallel num_threads(4) reduction(+ : read)
+    {
+        srp_table *table = NULL;
+        read += srp_table_read(&srp_table_format_netcdf, path, &table, NULL) == SRP_OK;
+    }
+    ck_assert_int_eq(read, 0);
     assert_write_fails("/dev/full", "No space left on device");
     fflush(stderr);
     free(bytes);
