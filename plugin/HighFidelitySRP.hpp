@@ -5,6 +5,8 @@
 #define SRP_PLUGIN_HIGH_FIDELITY_SRP_HPP
 
 #include "AreaModel.hpp"
+// R2026a names it even where CSPICE is left out.
+class SpiceOrbitKernelReader;
 #include "PhysicalModel.hpp"
 #include "Settings.hpp"
 
