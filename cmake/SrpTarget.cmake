@@ -16,3 +16,18 @@ function(srp_target_options target)
   endif()
   set_target_properties(${target} PROPERTIES C_VISIBILITY_PRESET hidden)
 endfunction()
+
+# The same for C++17.
+function(srp_cxx_target_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+  if(SRP_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(SRP_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${SRP_SANITIZE} -fno-omit-frame-pointer
+                                             -fno-sanitize-recover=all)
+    target_link_options(${target} PRIVATE -fsanitize=${SRP_SANITIZE})
+  endif()
+  set_target_properties(${target} PROPERTIES CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON
+    CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden)
+endfunction()

@@ -3,18 +3,24 @@
 #include "error.h"
 #include "mat3.h"
 
+#include <srp/acceleration.h>
 #include <srp/orbit/radiation.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-double srp_shadow_fraction(const srp_shadow *shadow, srp_vec3 r, const srp_vec3 *bodies) {
-    srp_body before[SRP_CELESTIAL_COUNT];
+static void place_bodies(const srp_shadow *shadow, srp_vec3 r, const srp_vec3 *bodies,
+                         srp_body before[SRP_CELESTIAL_COUNT]) {
     for (size_t i = 0; i < shadow->count; ++i) {
         before[i].position = srp_vec3_sub(bodies[shadow->body[i]], r);
         before[i].radius = shadow->radius[i];
     }
+}
+
+double srp_shadow_fraction(const srp_shadow *shadow, srp_vec3 r, const srp_vec3 *bodies) {
+    srp_body before[SRP_CELESTIAL_COUNT];
+    place_bodies(shadow, r, bodies, before);
     return srp_sunlight_fraction(srp_vec3_sub(bodies[SRP_SUN], r), shadow->sun_radius,
                                  shadow->count, before);
 }
@@ -34,57 +40,45 @@ static int matrix_at(const srp_radiation_params *p, const srp_force_state *state
     return p->attitude.eval(p->attitude.user, state, matrix);
 }
 
-/* Of a state: direction, distance, factor nu P scale / m. */
-typedef struct lighting {
-    srp_vec3 s; /* inertial */
-    double distance, seen, factor;
-} lighting;
+/* A state as srpcore sees it; not to be copied, for `state` points into it. */
+typedef struct instant {
+    srp_acceleration_params params;
+    srp_acceleration_state state;
+    srp_acceleration_lighting light;
+    srp_body before[SRP_CELESTIAL_COUNT];
+} instant;
+_Static_assert((int)SRP_CELESTIAL_COUNT <= (int)SRP_ACCELERATION_BODIES_MAX,
+               "all bodies may cast shadows");
 
-static lighting light_at(const srp_radiation_params *p, const srp_force_state *state) {
-    lighting out;
-    const srp_vec3 sun = srp_vec3_sub(state->bodies[SRP_SUN], state->r);
-    out.distance = srp_vec3_norm(sun);
-    out.s = srp_vec3_scale(1.0 / out.distance, sun);
-    out.seen = srp_shadow_fraction(&p->shadow, state->r, state->bodies);
-    out.factor = p->scale * srp_sunlight_pressure(p->light, out.distance) / p->mass;
-    return out;
+static int see(const srp_radiation_params *p, const srp_force_state *state, instant *out) {
+    const int code = matrix_at(p, state, out->state.matrix);
+    if (code != 0) {
+        return code;
+    }
+    place_bodies(&p->shadow, state->r, state->bodies, out->before);
+    out->params = (srp_acceleration_params){p->light, p->shadow.sun_radius, p->scale};
+    out->state.sun = srp_vec3_sub(state->bodies[SRP_SUN], state->r);
+    out->state.count = p->shadow.count;
+    out->state.bodies = out->before;
+    out->state.mass = p->mass;
+    return srp_acceleration_light(&out->params, &out->state, &out->light, NULL) == SRP_OK ? 0 : -1;
 }
 
 /* ---- Partials -------------------------------------------------------------------------------- */
 
-/* Step of the differences over r and v, as a share of their length. What attitude and shadow do to
- * the state transition is small beside gravity; the formula is of second order. */
+/* Step of the differences over r and v, as a share of their length. What the attitude does to the
+ * state transition is small beside gravity; the formula is of second order. */
 static const double STATE_STEP = 1e-5;
-/* [m] of the share of the Sun, a smooth function over tens of kilometres. */
-static const double SHADOW_STEP = 10.0;
 
 typedef struct answer {
-    double matrix[3][3];
-    srp_vec3 s_body, f;
+    srp_vec3 f;
     double df[3][3];
 } answer;
 
-/* By the way that the direction to the Sun changes, and the distance: P ~ d^-2, ds = -(1 - s
- * s^T)/d. */
-static void add_direction_part(const lighting *light, const answer *at, double k,
-                               srp_force_sum *sum) {
-    const srp_vec3 f = srp_mat3_apply_transposed((const double(*)[3])at->matrix, at->f);
-    const double s[3] = {light->s.x, light->s.y, light->s.z};
-    for (int j = 0; j < 3; ++j) {
-        srp_vec3 ds = srp_vec3_add_scaled(srp_vec3_scale(-1.0, srp_axis(j)), s[j], light->s);
-        ds = srp_mat3_apply((const double(*)[3])at->matrix,
-                            srp_vec3_scale(1.0 / light->distance, ds));
-        srp_vec3 column = srp_mat3_apply_transposed((const double(*)[3])at->matrix,
-                                                    srp_mat3_apply((const double(*)[3])at->df, ds));
-        column = srp_vec3_add_scaled(column, 2.0 * s[j] / light->distance, f);
-        srp_mat3_add_column(sum->da_dr, j, srp_vec3_scale(k, column));
-    }
-}
-
 /* By the turning of the body, M' = dM / dx: d(M^T f(M s)) = M'^T f + M^T df M' s. */
 static int add_attitude_part(const srp_radiation_params *p, const srp_force_state *state,
-                             const lighting *light, const answer *at, double k,
-                             srp_force_sum *sum) {
+                             const instant *seen, const answer *at, srp_force_sum *sum) {
+    const double k = seen->light.seen * seen->light.factor;
     for (int j = 0; j < 6; ++j) {
         srp_force_state up = *state, down = *state;
         const double step = STATE_STEP * srp_vec3_norm(j < 3 ? state->r : state->v);
@@ -103,8 +97,8 @@ static int add_attitude_part(const srp_radiation_params *p, const srp_force_stat
         for (int i = 0; i < 9; ++i) {
             above[i / 3][i % 3] = (above[i / 3][i % 3] - below[i / 3][i % 3]) * (0.5 / step);
         }
-        srp_vec3 ds = srp_mat3_apply((const double(*)[3])above, light->s);
-        srp_vec3 column = srp_mat3_apply_transposed((const double(*)[3])at->matrix,
+        srp_vec3 ds = srp_mat3_apply((const double(*)[3])above, seen->light.s);
+        srp_vec3 column = srp_mat3_apply_transposed(seen->state.matrix,
                                                     srp_mat3_apply((const double(*)[3])at->df, ds));
         column = srp_vec3_add(column, srp_mat3_apply_transposed((const double(*)[3])above, at->f));
         srp_mat3_add_column(j < 3 ? sum->da_dr : sum->da_dv, j % 3, srp_vec3_scale(k, column));
@@ -112,47 +106,28 @@ static int add_attitude_part(const srp_radiation_params *p, const srp_force_stat
     return 0;
 }
 
-static void add_shadow_part(const srp_radiation_params *p, const srp_force_state *state,
-                            const lighting *light, srp_vec3 f, srp_force_sum *sum) {
-    for (int j = 0; j < 3; ++j) {
-        const double up = srp_shadow_fraction(
-            &p->shadow, srp_vec3_add_scaled(state->r, SHADOW_STEP, srp_axis(j)), state->bodies);
-        const double down = srp_shadow_fraction(
-            &p->shadow, srp_vec3_add_scaled(state->r, -SHADOW_STEP, srp_axis(j)), state->bodies);
-        srp_mat3_add_column(sum->da_dr, j,
-                            srp_vec3_scale(light->factor * (up - down) / (2.0 * SHADOW_STEP), f));
-    }
-}
-
 /* ---- Force ----------------------------------------------------------------------------------- */
 
 static int radiation_eval(const void *user, const srp_force_state *state, srp_force_sum *sum) {
     const srp_radiation_params *p = user;
-    const lighting light = light_at(p, state);
-    if (light.seen == 0.0) {
-        return 0;
-    }
+    instant seen;
     answer at;
-    int code = matrix_at(p, state, at.matrix);
+    int code = see(p, state, &seen);
+    if (code != 0 || seen.light.seen == 0.0) {
+        return code;
+    }
+    code = p->model.eval(p->model.user, seen.light.s_body, &at.f, sum->partials ? at.df : NULL);
     if (code != 0) {
         return code;
     }
-    /* Rounding of the matrix: the interpolant wants a unit vector. */
-    at.s_body = srp_unit(srp_mat3_apply((const double(*)[3])at.matrix, light.s));
-    code = p->model.eval(p->model.user, at.s_body, &at.f, sum->partials ? at.df : NULL);
-    if (code != 0) {
-        return code;
-    }
-    const srp_vec3 f = srp_mat3_apply_transposed((const double(*)[3])at.matrix, at.f);
-    const double k = light.seen * light.factor;
-    sum->a = srp_vec3_add_scaled(sum->a, k, f);
+    sum->a =
+        srp_vec3_add_scaled(sum->a, seen.light.seen * seen.light.factor,
+                            srp_mat3_apply_transposed((const double(*)[3])seen.state.matrix, at.f));
     if (sum->partials) {
-        add_direction_part(&light, &at, k, sum);
-        if (light.seen < 1.0) {
-            add_shadow_part(p, state, &light, f, sum);
-        }
+        srp_acceleration_add_partials(&seen.params, &seen.state, &seen.light, at.f,
+                                      (const double(*)[3])at.df, sum->da_dr);
         if (!is_round(p) && (p->attitude.flags & SRP_ATTITUDE_OF_STATE) != 0) {
-            code = add_attitude_part(p, state, &light, &at, k, sum);
+            code = add_attitude_part(p, state, &seen, &at, sum);
         }
     }
     return code;
@@ -189,20 +164,21 @@ srp_status srp_force_radiation(const srp_radiation_params *params, srp_force *ou
 int srp_force_radiation_probe(const srp_force *force, const srp_force_state *state,
                               srp_radiation_probe *out) {
     const srp_radiation_params *p = force->user;
-    const lighting light = light_at(p, state);
+    instant seen;
     srp_radiation_probe probe;
-    int code = matrix_at(p, state, probe.matrix);
+    int code = see(p, state, &seen);
+    if (code == 0) {
+        code = p->model.eval(p->model.user, seen.light.s_body, &probe.f, NULL);
+    }
     if (code != 0) {
         return code;
     }
-    probe.s_body = srp_unit(srp_mat3_apply((const double(*)[3])probe.matrix, light.s));
-    code = p->model.eval(p->model.user, probe.s_body, &probe.f, NULL);
-    if (code != 0) {
-        return code;
-    }
-    probe.seen = light.seen;
-    probe.a = srp_vec3_scale(light.seen * light.factor,
-                             srp_mat3_apply_transposed((const double(*)[3])probe.matrix, probe.f));
+    memcpy(probe.matrix, seen.state.matrix, sizeof probe.matrix);
+    probe.s_body = seen.light.s_body;
+    probe.seen = seen.light.seen;
+    probe.a =
+        srp_vec3_scale(seen.light.seen * seen.light.factor,
+                       srp_mat3_apply_transposed((const double(*)[3])seen.state.matrix, probe.f));
     *out = probe;
     return 0;
 }

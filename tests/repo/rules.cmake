@@ -43,7 +43,12 @@ forbid("(^|[^a-z_])(printf|puts|putchar|perror|exit|abort|_Exit|assert) *\\("
        "a library does not print or end the program" ${orbit})
 forbid("(^|[^a-z_/])(std(out|err))([^a-z_]|$)" "a library does not print" ${orbit})
 
-file(GLOB_RECURSE sources
+file(GLOB plugin ${ROOT}/plugin/*.cpp ${ROOT}/plugin/*.hpp)
+forbid("^ *# *include *[<\"](apps|gl|orbit|bench|models|tests|srp/orbit|srp/gl)[/.]"
+       "plugin depends on srpcore alone" ${plugin})
+forbid("^ *# *include *<gsl/" "plugin links no GSL" ${plugin})
+
+file(GLOB_RECURSE sources ${ROOT}/plugin/*.[ch]pp ${ROOT}/tests/*.hpp
   ${ROOT}/srpcore/*.[ch] ${ROOT}/gl/*.[ch] ${ROOT}/orbit/*.[ch] ${ROOT}/gl/*.glsl ${ROOT}/apps/*.[ch] ${ROOT}/bench/*.[ch] ${ROOT}/models/*.[ch]
   ${ROOT}/tests/*.[ch] ${ROOT}/tests/*.cpp)
 foreach(file IN LISTS sources)

@@ -15,6 +15,7 @@
 #include <srp/interp.h>
 #include <srp/method.h>
 #include <srp/scene.h>
+#include <srp/spad.h>
 #include <srp/table.h>
 
 #include <stdatomic.h>
@@ -441,6 +442,15 @@ static srp_status try_cache(srp_error *error) {
     return status;
 }
 
+static srp_status try_spad(srp_error *error) {
+    srp_spad *spad = (srp_spad *)NOT_TOUCHED;
+    srp_status status = srp_spad_create(filled, false, &spad, error);
+    if (status == SRP_OK) {
+        srp_spad_destroy(spad);
+    }
+    return status == SRP_OK || spad == (srp_spad *)NOT_TOUCHED ? status : SRP_MISMATCH;
+}
+
 static srp_status try_bvh(srp_error *error) {
     srp_bvh *bvh = (srp_bvh *)NOT_TOUCHED;
     srp_status status = srp_bvh_create(scene, 2, &bvh, error);
@@ -477,6 +487,7 @@ static const struct {
     {"table_fill", try_table_fill},
     {"table_reoptic", try_table_reoptic},
     {"interp", try_interp},
+    {"spad", try_spad},
     {"demand", try_demand},
     {"cache", try_cache},
     {"netcdf", try_netcdf},

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Matrices of 3 x 3, row by row. Internal. */
-#ifndef SRP_ORBIT_SRC_MAT3_H
-#define SRP_ORBIT_SRC_MAT3_H
+#ifndef SRP_SRC_MAT3_H
+#define SRP_SRC_MAT3_H
 
 #include <srp/vec3.h>
 
