@@ -120,6 +120,10 @@ static srp_status fill_radiation(const mission_site *site, const mission_radiati
     if (status == SRP_OK) {
         status = mission_values(source, "forces.radiation.scale", in->scale, MISSION_NUMBER, 1,
                                 &params->scale, error);
+        if (status == SRP_OK && !(params->scale >= 0.0)) {
+            return mission_fail(source, error, SRP_BAD_DATA, "forces.radiation.scale",
+                                "'%.80s', expected 0 or more: light does not pull", in->scale);
+        }
     }
     if (status == SRP_OK) {
         status = mission_build_model(site, &params->model, error);

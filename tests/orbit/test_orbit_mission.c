@@ -153,6 +153,7 @@ static const mistake MISTAKES[] = {
     {23, "    file: box-wing.mtl", 0, SRP_BAD_FORMAT, ""},
     {23, "", 0, SRP_BAD_FORMAT, "file"},
     {24, "    scale: 1.05 kg", 24, SRP_BAD_FORMAT, "expected nothing"},
+    {24, "    scale: -1", 24, SRP_BAD_DATA, "light does not pull"},
     {24, "    scale: inf", 24, SRP_BAD_FORMAT, "1 number"},
     {25, "    flux: 1361 W", 25, SRP_BAD_FORMAT, "W/m2"},
     {25, "    flux: 0 W/m2", 25, SRP_BAD_DATA, "above 0"},
@@ -170,6 +171,9 @@ static const mistake MISTAKES[] = {
     {36, "  fixed_step: 0 s", 36, SRP_BAD_DATA, "above 0"},
     {37, "  first_step: 1 kg", 37, SRP_BAD_FORMAT, "s, min, h, d"},
     {38, "  max_step: -1 s", 38, SRP_BAD_DATA, "above 0"},
+    {38, "  max_step: 1e-6 s", 38, SRP_BAD_DATA, "steps, expected at most"},
+    {36, "  fixed_step: 1e-6 s", 36, SRP_BAD_DATA, "steps, expected at most"},
+    {40, "  oem: a.csv\n  report: a.csv", 41, SRP_BAD_DATA, "output.oem"},
     {40, "  step: 0 s", 40, SRP_BAD_DATA, "above 0"},
     {40, "  step: 1e-9 s", 40, SRP_BAD_DATA, "rows"},
     {41, "  columns: []", 41, SRP_BAD_DATA, "one column or more"},
@@ -597,6 +601,28 @@ START_TEST(dates_that_are_not_sure_are_warned_of) {
 }
 END_TEST
 
+static void keep_warnings(void *user, const srp_error *what) {
+    char *all = user;
+    strncat(all, what->message, 900 - strlen(all));
+}
+
+START_TEST(what_counts_for_nothing_is_warned_of) {
+    static const char *const TEXT =
+        "title: t\nepoch: 2024-03-20T00:00:00 UTC\nduration: 6 h\nspacecraft: {mass: 9 kg}\n"
+        "state: {position: 7000 0 0 km, velocity: 0 7.5 0 km/s}\n"
+        "integrator: {fixed_step: 60 s, tolerance: 1e-10}\noutput: {columns: [epoch, nodes]}\n";
+    char words[1000] = "";
+    srp_mission *mission = NULL;
+    srp_error error;
+    const srp_log log = {keep_warnings, words};
+    const srp_mission_context context = {&log, NULL, NULL, NULL};
+    assert_ok(parse_with(TEXT, &context, &mission, &error), error);
+    ck_assert_msg(strstr(words, "integrator.tolerance") != NULL, "%s", words);
+    ck_assert_msg(strstr(words, "nodes will be 0") != NULL, "%s", words);
+    srp_mission_destroy(mission);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("orbit_mission");
     TCase *all = tcase_create("mission");
@@ -612,6 +638,7 @@ int main(void) {
     tcase_add_test(all, falling_to_the_ground_is_told);
     tcase_add_test(all, a_run_can_be_cancelled);
     tcase_add_test(all, dates_that_are_not_sure_are_warned_of);
+    tcase_add_test(all, what_counts_for_nothing_is_warned_of);
     suite_add_tcase(suite, all);
     return run_suite(suite);
 }
