@@ -25,6 +25,10 @@ END
     echo 'Propagate Prop(Sat) {Sat.ElapsedDays = 2};'
 }
 
+# Elsewhere GMAT's reader does its work with these axes.
+mission 'XAxis = R;' spad - spad_control > spad_control.script
+runs spad_control.script
+
 for axis in 'ZAxis = R' 'ZAxis = -R' 'XAxis = -R'; do
     name=$(echo "$axis" | tr -d ' =' | tr - m)
     mission "$axis;" spad - "spad_$name" > "spad_$name.script"

@@ -4,21 +4,28 @@
 . "$(dirname "$0")/lib.sh"
 table=$(one_wing) || exit 77
 
-for mode in inertial nadir spinner; do
+# pair ATTITUDE Bilinear|Bicubic
+pair() {
+    local kind name
     for kind in spad plugin; do
-        name=${mode}_$kind
+        name=$1_$2_$kind
         {
             spacecraft Sat
-            attitude Sat $mode
-            [ $kind = plugin ] || spad Sat "$table"
-            forces FM $kind "SRPTableFile = '$table'" "SRPInterpolation = gmat_bilinear"
+            attitude Sat "$1"
+            [ $kind = plugin ] || spad Sat "$table" | sed "s/Bilinear/$2/"
+            forces FM $kind "SRPTableFile = '$table'" "SRPInterpolation = gmat_${2,,}"
             propagator Prop FM
-            report $name Sat
+            report "$name" Sat
             echo 'BeginMissionSequence;'
             echo 'Propagate Prop(Sat) {Sat.ElapsedDays = 2};'
-        } > $name.script
-        runs $name.script
+        } > "$name.script"
+        runs "$name.script"
     done
-    apart 5 ${mode}_spad ${mode}_plugin
-done
+    apart 5 "$1_$2_spad" "$1_$2_plugin"
+}
+pair inertial Bilinear
+pair nadir Bilinear
+pair spinner Bilinear
+# A cubic look-up of GMAT's cannot go near the south pole of the table.
+pair inertial Bicubic
 finish
