@@ -4,7 +4,7 @@
 # Ubuntu 22.04 or 24.04. Does nothing, and asks no network, where all are there. Works as root and
 # through sudo.
 #
-#   scripts/install-deps.sh [build] [test] [ci] [gl]     default: build test
+#   scripts/install-deps.sh [build] [test] [ci] [gl] [viewer]     default: build test
 set -euo pipefail
 
 BUILD=(gcc g++ cmake ninja-build pkg-config libc6-dev libnetcdf-dev libhdf5-dev libxxhash-dev)
@@ -21,6 +21,9 @@ OPTIONAL=(libembree-dev netcdf-bin mandoc libxml2-utils poppler-utils)
 # it says what is missing, and its tests are skipped).
 GL=(libgl-dev libegl-dev libosmesa6 libegl1 libgl1-mesa-dri)
 OPTIONAL+=("${GL[@]}")
+# The viewer, and a display without a screen for its tests. Without them the rest is built.
+VIEWER=(libgtk-4-dev adwaita-icon-theme fonts-dejavu-core xvfb)
+OPTIONAL+=("${VIEWER[@]}")
 # Run-time libraries of the sanitizers and the fuzzer of clang; where there is no such package (Ubuntu
 # 22.04) they come with clang itself.
 OPTIONAL+=(libclang-rt-dev)
@@ -79,8 +82,9 @@ main() {
             required+=("${CI[@]}")
             ;;
         gl) required+=("${GL[@]}") ;;
+        viewer) required+=("${VIEWER[@]}") ;;
         *)
-            echo "install-deps: unknown group '$group', expected build, test, ci or gl" >&2
+            echo "install-deps: unknown group '$group', expected build, test, ci, gl or viewer" >&2
             exit 2
             ;;
         esac

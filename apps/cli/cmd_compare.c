@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* srp compare: how far two tables are apart. */
 #include "commands.h"
-#include "difference.h"
+#include "comparison.h"
 #include "figure.h"
 #include "json.h"
 #include "messages.h"
@@ -76,13 +76,9 @@ typedef struct comparison {
     const compare_options *options;
     const char *path[2];
     srp_table *table[2];
-    srp_interp *interp[2]; /* NULL where the table has all nodes of the grid */
-    srp_grid grid;         /* the finer of theirs */
-    size_t directions;
-    cli_difference difference;
+    cli_comparison found;
     double mass; /* [kg], NAN when not known */
     srp_sunlight light;
-    const srp_interp_scheme *scheme;
 } comparison;
 
 /* ---- output ---- */
@@ -123,21 +119,21 @@ static void print_text(const comparison *c) {
     for (int k = 0; k < 2; ++k) {
         char summary[256];
         cli_table_summary(c->table[k], summary, sizeof summary);
-        const char *how = c->interp[k] != NULL ? c->scheme->name : "";
+        const char *how = c->found.interp[k] != NULL ? c->found.scheme->name : "";
         printf("%c          %s: %s%s%s\n", k == 0 ? 'A' : 'B', c->path[k], summary,
                how[0] != '\0' ? ", interpolated: " : "", how);
     }
     printf("compared   %s [%s] from %zu directions, steps of %g x %g degrees, each by its solid "
            "angle\n",
-           c->options->moment ? "moments" : "forces", unit, c->directions,
-           360.0 / (c->grid.az_count - 1), 180.0 / (c->grid.el_count - 1));
-    printf("mean size  A %.6g %s, B %.6g %s\n", c->difference.mean_a, unit, c->difference.mean_b,
-           unit);
-    print_rows(&c->difference, 1.0, unit, c->options->moment ? "m^6" : "m^4");
-    print_relative(&c->difference);
+           c->options->moment ? "moments" : "forces", unit, c->found.directions,
+           360.0 / (c->found.grid.az_count - 1), 180.0 / (c->found.grid.el_count - 1));
+    printf("mean size  A %.6g %s, B %.6g %s\n", c->found.difference.mean_a, unit,
+           c->found.difference.mean_b, unit);
+    print_rows(&c->found.difference, 1.0, unit, c->options->moment ? "m^6" : "m^4");
+    print_relative(&c->found.difference);
     if (!c->options->moment && !isnan(c->mass)) {
         printf("\nAccelerations of %g kg, 1 AU from the Sun, %g W/m^2:\n", c->mass, c->light.flux);
-        print_rows(&c->difference, acceleration_factor(c), "m/s^2", "m^2/s^4");
+        print_rows(&c->found.difference, acceleration_factor(c), "m/s^2", "m^2/s^4");
     }
 }
 
@@ -147,12 +143,12 @@ static void write_json(const comparison *c) {
     cli_json_text(&json, "a", c->path[0]);
     cli_json_text(&json, "b", c->path[1]);
     cli_json_text(&json, "quantity", c->options->moment ? "moment_m3" : "force_m2");
-    cli_json_count(&json, "directions", c->directions);
-    cli_json_number(&json, "mean_length_a", c->difference.mean_a);
-    cli_json_number(&json, "mean_length_b", c->difference.mean_b);
+    cli_json_count(&json, "directions", c->found.directions);
+    cli_json_number(&json, "mean_length_a", c->found.difference.mean_a);
+    cli_json_number(&json, "mean_length_b", c->found.difference.mean_b);
     cli_json_open_object(&json, "b_minus_a");
     for (int k = 0; k < CLI_DIFFERENCE_COUNT; ++k) {
-        const cli_difference_row *row = &c->difference.row[k];
+        const cli_difference_row *row = &c->found.difference.row[k];
         cli_json_open_object(&json, CLI_DIFFERENCE_NAME[k]);
         cli_json_number(&json, "mse", row->mse);
         cli_json_number(&json, "rms", row->rms);
@@ -172,43 +168,14 @@ static void write_json(const comparison *c) {
 
 /* ---- the figure ---- */
 
-/* What table t says at a node of the grid. */
-static srp_vec3 value_at(const comparison *c, int t, uint32_t i, uint32_t j) {
-    srp_vec3 force = {0.0, 0.0, 0.0}, moment = {0.0, 0.0, 0.0};
-    if (c->interp[t] != NULL) {
-        srp_status status = srp_interp_eval(c->interp[t], srp_grid_direction(c->grid, i, j), &force,
-                                            &moment, NULL, NULL);
-        return status == SRP_OK && !c->options->moment ? force : moment;
-    }
-    srp_grid own = srp_table_grid(c->table[t]);
-    const srp_response *node =
-        srp_table_node(c->table[t], i * ((own.az_count - 1) / (c->grid.az_count - 1)),
-                       j * ((own.el_count - 1) / (c->grid.el_count - 1)));
-    return c->options->moment ? node->t : node->f;
-}
-
-/* Rows of `picture` at the common nodes: x, y, z of B - A and its length. */
-static void fill_fields(const comparison *c, double *value) {
-    size_t nodes = srp_grid_node_count(c->grid), k = 0;
-    for (uint32_t i = 0; i < c->grid.az_count; ++i) {
-        for (uint32_t j = 0; j < c->grid.el_count; ++j, ++k) {
-            srp_vec3 d = srp_vec3_sub(value_at(c, 1, i, j), value_at(c, 0, i, j));
-            value[k] = d.x;
-            value[nodes + k] = d.y;
-            value[2 * nodes + k] = d.z;
-            value[3 * nodes + k] = srp_vec3_norm(d);
-        }
-    }
-}
-
 static int draw(const comparison *c, const cli_figure_options *figure) {
-    size_t nodes = srp_grid_node_count(c->grid);
-    double *value = calloc(CLI_FIGURE_ROWS * nodes, sizeof *value);
+    size_t nodes = srp_grid_node_count(c->found.grid);
+    double *value = calloc(CLI_COMPARISON_FIELDS * nodes, sizeof *value);
     if (value == NULL) {
         cli_say("no memory for the figure");
         return CLI_MACHINE_FAILED;
     }
-    fill_fields(c, value);
+    cli_comparison_fields(&c->found, value);
     bool moment = c->options->moment;
     char title[512];
     snprintf(title, sizeof title, "%s minus %s", c->path[1], c->path[0]);
@@ -216,7 +183,7 @@ static int draw(const comparison *c, const cli_figure_options *figure) {
         .title = title,
         .columns = 1,
         .rows = CLI_FIGURE_ROWS,
-        .grid = {c->grid},
+        .grid = {c->found.grid},
         .name = {moment ? "Δt#dx#u [m³]" : "Δf#dx#u [m²]", moment ? "Δt#dy#u [m³]" : "Δf#dy#u [m²]",
                  moment ? "Δt#dz#u [m³]" : "Δf#dz#u [m²]", moment ? "|Δt| [m³]" : "|Δf| [m²]"},
         .is_signed = {true, true, true, false}};
@@ -230,69 +197,12 @@ static int draw(const comparison *c, const cli_figure_options *figure) {
 
 /* ---- the command ---- */
 
-static int same_reference(const comparison *c) {
-    const srp_table_info *a = srp_table_get_info(c->table[0]);
-    const srp_table_info *b = srp_table_get_info(c->table[1]);
-    for (int k = 0; k < 2; ++k) {
-        if (!srp_table_get_info(c->table[k])->has_moment) {
-            fprintf(stderr, "%s: holds no moments, expected them for --moment\n", c->path[k]);
-            return CLI_BAD_INPUT;
-        }
-    }
-    srp_vec3 apart = srp_vec3_sub(a->params.reference, b->params.reference);
-    if (srp_vec3_norm(apart) > 0.0) {
-        srp_vec3 p = b->params.reference, q = a->params.reference;
-        fprintf(stderr, "%s: moments are about (%g, %g, %g) m, expected (%g, %g, %g) m as in %s\n",
-                c->path[1], p.x, p.y, p.z, q.x, q.y, q.z, c->path[0]);
-        return CLI_BAD_INPUT;
-    }
-    return CLI_DONE;
-}
-
-/* The grid to compare on, and interpolants of the table that lacks its nodes. */
-static int choose_grid(comparison *c) {
-    c->grid = cli_grid_finer(srp_table_grid(c->table[0]), srp_table_grid(c->table[1]));
-    for (int k = 0; k < 2; ++k) {
-        srp_error error;
-        if (!cli_grid_contains(srp_table_grid(c->table[k]), c->grid) &&
-            srp_interp_create(c->scheme, c->table[k], &c->interp[k], &error) != SRP_OK) {
-            fprintf(stderr, "%s: cannot be interpolated: %s\n", c->path[k], error.message);
-            return error.status == SRP_NO_MEMORY ? CLI_MACHINE_FAILED : CLI_BAD_INPUT;
-        }
-    }
-    return CLI_DONE;
-}
-
-static bool take(const comparison *c, int k, cli_samples *out) {
-    return c->interp[k] != NULL
-               ? cli_samples_interpolate(c->interp[k], c->grid, c->options->moment, out)
-               : cli_samples_take(c->table[k], c->grid, c->options->moment, out);
-}
-
-static int measure(comparison *c) {
-    cli_samples a, b;
-    if (!take(c, 0, &a)) {
-        cli_say("no memory");
-        return CLI_MACHINE_FAILED;
-    }
-    if (!take(c, 1, &b)) {
-        cli_samples_free(&a);
-        cli_say("no memory");
-        return CLI_MACHINE_FAILED;
-    }
-    c->directions = a.count;
-    c->difference = cli_difference_measure(&a, b.value, NULL);
-    cli_samples_free(&a);
-    cli_samples_free(&b);
-    return CLI_DONE;
-}
-
 static int judge(const comparison *c) {
-    double largest = c->difference.row[CLI_DIFFERENCE_VECTOR].largest;
+    double largest = c->found.difference.row[CLI_DIFFERENCE_VECTOR].largest;
     if (cli_is_given(c->options->given, COMPARE_FAIL_ABOVE) &&
-        !(largest <= c->options->fail_above * c->difference.mean_a)) {
+        !(largest <= c->options->fail_above * c->found.difference.mean_a)) {
         cli_say("the largest difference is %.6g of the mean length, more than %g",
-                largest / c->difference.mean_a, c->options->fail_above);
+                largest / c->found.difference.mean_a, c->options->fail_above);
         return CLI_BAD_INPUT;
     }
     return CLI_DONE;
@@ -312,15 +222,11 @@ static int compare(comparison *c, const cli_figure_options *figure) {
     for (int k = 0; k < 2 && status == CLI_DONE; ++k) {
         status = cli_table_open_checked(c->path[k], &c->table[k]);
     }
-    if (status == CLI_DONE && c->options->moment) {
-        status = same_reference(c);
-    }
-    if (status == CLI_DONE) {
-        status = choose_grid(c);
-    }
     if (status == CLI_DONE) {
         choose_light(c);
-        status = measure(c);
+        c->found.table[0] = c->table[0];
+        c->found.table[1] = c->table[1];
+        status = cli_comparison_make(&c->found);
     }
     if (status == CLI_DONE && figure->output != NULL) {
         status = draw(c, figure);
@@ -329,8 +235,8 @@ static int compare(comparison *c, const cli_figure_options *figure) {
         c->options->json ? write_json(c) : print_text(c);
         status = judge(c);
     }
+    cli_comparison_release(&c->found);
     for (int k = 0; k < 2; ++k) {
-        srp_interp_destroy(c->interp[k]);
         srp_table_destroy(c->table[k]);
     }
     return status;
@@ -353,8 +259,11 @@ static int run(const cli_command *command, int argc, char **argv) {
         return cli_usage_error("--interpolation %s: expected bilinear, bicubic or spline",
                                options.interpolation);
     }
-    comparison c = {
-        .options = &options, .scheme = scheme, .path = {operands.items[0], operands.items[1]}};
+    comparison c = {.options = &options,
+                    .path = {operands.items[0], operands.items[1]},
+                    .found = {.name = {operands.items[0], operands.items[1]},
+                              .moment = options.moment,
+                              .scheme = scheme}};
     return compare(&c, &figure);
 }
 

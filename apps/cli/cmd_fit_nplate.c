@@ -8,6 +8,7 @@
 #include "plate_fit.h"
 #include "plate_output.h"
 #include "system.h"
+#include "table_fit.h"
 #include "table_input.h"
 #include "text_file.h"
 
@@ -38,7 +39,7 @@ typedef struct fit_options {
     double metres_per_unit, shadow, mass;
 } fit_options;
 
-enum { PLATES_AUTO = 8, SEARCH_DIRECTIONS = 800 };
+enum { PLATES_AUTO = 8 };
 
 static const cli_range PLATE_COUNT = {1, CLI_NORMALS_MAX, "a whole number from 1 to 64"};
 static const cli_range SHARE = {0.0, 1.0, "a number from 0 to 1"};
@@ -249,64 +250,14 @@ static int load(fit_job *job) {
 
 /* ---- the fit ---- */
 
-static int explain(const fit_job *job, cli_fit_status status, size_t plates) {
-    switch (status) {
-    case CLI_FIT_DONE:
-        return CLI_DONE;
-    case CLI_FIT_NO_MEMORY:
-        return no_memory();
-    case CLI_FIT_TOO_FEW:
-        fprintf(stderr, "%s: %zu directions give %zu numbers, too few for %zu plates\n", job->path,
-                job->samples.count, 3 * job->samples.count, plates);
-        return CLI_BAD_INPUT;
-    case CLI_FIT_NOT_FINITE:
-        fprintf(stderr, "%s: holds numbers that are not finite\n", job->path);
-        return CLI_BAD_INPUT;
-    case CLI_FIT_AMBIGUOUS:
-    default:
-        fprintf(stderr,
-                "%s: %zu plates cannot be told apart in these directions; fewer plates, or normals "
-                "farther apart, can\n",
-                job->path, plates);
-        return CLI_BAD_INPUT;
-    }
-}
-
-/* A part of the table's grid with few enough directions to search in. */
-static srp_grid coarser(srp_grid grid) {
-    static const uint32_t divisors[] = {2, 3, 5};
-    for (bool more = true; more && srp_grid_node_count(grid) > SEARCH_DIRECTIONS;) {
-        more = false;
-        for (size_t k = 0; k < sizeof divisors / sizeof divisors[0] && !more; ++k) {
-            uint32_t az = grid.az_count - 1, el = grid.el_count - 1;
-            if (az % divisors[k] == 0 && el % divisors[k] == 0) {
-                grid = (srp_grid){az / divisors[k] + 1, el / divisors[k] + 1};
-                more = true;
-            }
-        }
-    }
-    return grid;
-}
-
-static int search(fit_job *job) {
-    size_t wanted =
-        cli_is_given(job->options->given, FIT_PLATES) ? job->options->plates : PLATES_AUTO;
-    cli_samples few;
-    if (!cli_samples_take(job->table, coarser(job->samples.grid), false, &few)) {
-        return no_memory();
-    }
-    cli_fit_status status =
-        cli_plate_normals_search(&few, &job->samples, wanted, job->normals.normal);
-    cli_samples_free(&few);
-    job->normals.count = wanted;
-    snprintf(job->normals.words, sizeof job->normals.words, "searched");
-    return explain(job, status, wanted);
-}
-
 static int fit(fit_job *job) {
     int status;
     if (wants(job, "auto")) {
-        status = search(job);
+        job->normals.count = cli_is_given(job->options->given, FIT_PLATES) ? job->options->plates
+                                                                           : (size_t)PLATES_AUTO;
+        snprintf(job->normals.words, sizeof job->normals.words, "searched");
+        status = cli_table_search(job->table, job->path, &job->samples, job->normals.count,
+                                  job->normals.normal);
     } else if (wants(job, "mesh")) {
         status = cli_normals_of_mesh(job->scene, job->options->plates, &job->normals);
     } else {
@@ -315,9 +266,8 @@ static int fit(fit_job *job) {
     if (status != CLI_DONE) {
         return status;
     }
-    return explain(
-        job, cli_plate_fit_solve(&job->samples, job->normals.normal, job->normals.count, &job->fit),
-        job->normals.count);
+    return cli_table_fit(job->path, &job->samples, job->normals.count, job->normals.normal,
+                         &job->fit);
 }
 
 /* ---- output ---- */

@@ -5,6 +5,7 @@
 #include "methods.h"
 #include "progress.h"
 #include "system.h"
+#include "track.h"
 
 #include <srp/orbit/mission.h>
 
@@ -74,48 +75,15 @@ static const cli_group *const GROUPS[] = {&OUTPUT};
 
 enum { FILE_COUNT = 3 }; /* OEM, report, events */
 
-/* Where the spacecraft was: for differences. */
-typedef struct track {
-    srp_vec3 *r, *v;
-    double *t;
-    size_t count, capacity;
-} track;
-
 typedef struct propagate_job {
     const srp_mission *mission;
     srp_mission_file *files[FILE_COUNT];
-    track *kept; /* NULL: rows are not kept */
+    cli_track *kept; /* NULL: rows are not kept */
     bool file_failed;
     srp_error file_error;
     cli_progress progress;
     size_t units;
 } propagate_job;
-
-static void track_free(track *t) {
-    free(t->r);
-    free(t->v);
-    free(t->t);
-}
-
-static bool track_add(track *to, const srp_mission_row *row) {
-    if (to->count == to->capacity) {
-        const size_t capacity = 2 * to->capacity + 256;
-        srp_vec3 *r = realloc(to->r, capacity * sizeof *r);
-        to->r = r != NULL ? r : to->r;
-        srp_vec3 *v = realloc(to->v, capacity * sizeof *v);
-        to->v = v != NULL ? v : to->v;
-        double *t = realloc(to->t, capacity * sizeof *t);
-        to->t = t != NULL ? t : to->t;
-        if (r == NULL || v == NULL || t == NULL) {
-            return false;
-        }
-        to->capacity = capacity;
-    }
-    to->r[to->count] = row->r;
-    to->v[to->count] = row->v;
-    to->t[to->count++] = row->t;
-    return true;
-}
 
 static srp_status on_row(void *user, const srp_mission *mission, const srp_mission_row *row,
                          srp_error *error) {
@@ -129,13 +97,7 @@ static srp_status on_row(void *user, const srp_mission *mission, const srp_missi
             return status;
         }
     }
-    if (job->kept != NULL && !track_add(job->kept, row)) {
-        error->status = SRP_NO_MEMORY;
-        error->file[0] = '\0';
-        snprintf(error->message, sizeof error->message, "no memory for %zu rows", job->kept->count);
-        return SRP_NO_MEMORY;
-    }
-    return SRP_OK;
+    return job->kept != NULL ? cli_track_add(job->kept, row, error) : SRP_OK;
 }
 
 static void on_event(void *user, const srp_event *event) {
@@ -321,7 +283,7 @@ static void print_summary(const srp_mission_info *info, const srp_mission_summar
 }
 
 static int propagate_one(const propagate_options *options, const srp_mission *mission,
-                         track *kept) {
+                         cli_track *kept) {
     const srp_mission_info *info = srp_mission_get_info(mission);
     const file_names names = names_of(options, info);
     propagate_job job = {.mission = mission, .kept = kept};
@@ -342,15 +304,10 @@ static int propagate_one(const propagate_options *options, const srp_mission *mi
 
 /* ---- differences ---- */
 
-/* b - a along the axes of a: away from the centre, along the orbit, along its normal [m]. */
-static void print_difference(FILE *out, double t, const track *a, const track *b, size_t i) {
-    const srp_vec3 d = srp_vec3_sub(b->r[i], a->r[i]);
-    const srp_vec3 h = srp_vec3_cross(a->r[i], a->v[i]);
-    const srp_vec3 radial = srp_vec3_scale(1.0 / srp_vec3_norm(a->r[i]), a->r[i]);
-    const srp_vec3 cross = srp_vec3_scale(1.0 / srp_vec3_norm(h), h);
-    fprintf(out, "%.17g,%.9g,%.9g,%.9g,%.9g\n", t, srp_vec3_dot(d, radial),
-            srp_vec3_dot(d, srp_vec3_cross(cross, radial)), srp_vec3_dot(d, cross),
-            srp_vec3_norm(d));
+static void print_difference(FILE *out, const cli_track *a, const cli_track *b, size_t i) {
+    const srp_vec3 d = cli_track_difference(a, b, i);
+    fprintf(out, "%.17g,%.9g,%.9g,%.9g,%.9g\n", a->t[i], d.x, d.y, d.z,
+            srp_vec3_norm(srp_vec3_sub(b->r[i], a->r[i])));
 }
 
 static int cannot_write(const char *path) {
@@ -358,7 +315,8 @@ static int cannot_write(const char *path) {
     return CLI_MACHINE_FAILED;
 }
 
-static int write_differences(const propagate_options *options, const track *a, const track *b) {
+static int write_differences(const propagate_options *options, const cli_track *a,
+                             const cli_track *b) {
     errno = 0;
     FILE *out = options->output != NULL ? fopen(options->output, "w") : stdout;
     if (out == NULL) {
@@ -366,7 +324,7 @@ static int write_differences(const propagate_options *options, const track *a, c
     }
     fprintf(out, "elapsed_s,radial_m,along_m,cross_m,distance_m\n");
     for (size_t i = 0; i < a->count; ++i) {
-        print_difference(out, a->t[i], a, b, i);
+        print_difference(out, a, b, i);
     }
     const bool bad = ferror(out) != 0;
     if (options->output != NULL && (fclose(out) != 0 || bad)) {
@@ -394,32 +352,13 @@ static int check_differences(const propagate_options *options, const srp_mission
 }
 
 /* What both must have alike; the first that they have not. */
-static int check_pair(const srp_mission *a, const srp_mission *b) {
-    const srp_mission_info *one = srp_mission_get_info(a), *other = srp_mission_get_info(b);
-    const struct {
-        const char *name;
-        bool same;
-    } all[] = {{"epoch", srp_epoch_difference(one->epoch, other->epoch) == 0.0},
-               {"duration", one->duration == other->duration},
-               {"output.step", one->step == other->step},
-               {"central_body", one->central == other->central}};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
-        if (!all[i].same) {
-            fprintf(stderr, "%s: its %s differs from that of %s, expected the same\n", other->file,
-                    all[i].name, one->file);
-            return CLI_BAD_INPUT;
-        }
-    }
-    return CLI_DONE;
-}
-
 static int propagate_both(const propagate_options *options, const srp_mission *a,
                           const srp_mission *b) {
-    track one = {0}, other = {0};
+    cli_track one = {0}, other = {0};
     /* Only the first mission writes its files: the two may name the same. */
     propagate_job job = {.mission = b, .kept = &other};
     srp_mission_summary summary;
-    int status = check_pair(a, b);
+    int status = cli_missions_check_pair(a, b);
     if (status == CLI_DONE) {
         status = check_differences(options, a, b);
     }
@@ -432,8 +371,8 @@ static int propagate_both(const propagate_options *options, const srp_mission *a
     if (status == CLI_DONE) {
         status = write_differences(options, &one, &other);
     }
-    track_free(&one);
-    track_free(&other);
+    cli_track_free(&one);
+    cli_track_free(&other);
     return status;
 }
 

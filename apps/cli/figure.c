@@ -71,7 +71,7 @@ int cli_figure_check(const cli_figure_options *options, const char *const *input
         }
     }
     if (!cli_system_can_write(path, &reason)) {
-        fprintf(stderr, "%s: cannot write: %s\n", path, reason);
+        cli_say_of_file("%s: cannot write: %s", path, reason);
         return CLI_MACHINE_FAILED;
     }
     if (!has_device(kind->device)) {
@@ -109,6 +109,13 @@ double cli_figure_step(double range, int count) {
     return power * (lead < 1.5 ? 1.0 : lead < 3.5 ? 2.0 : lead < 7.5 ? 5.0 : 10.0);
 }
 
+double cli_figure_axis(cli_scale scale, double *low, double *high) {
+    double step = cli_figure_step(scale.high - scale.low, 4);
+    *low = step * floor(scale.low / step + 1e-9);
+    *high = step * ceil(scale.high / step - 1e-9);
+    return step;
+}
+
 void cli_figure_colours(cli_scale scale, double low, double high) {
     cli_palette palette;
     PLINT rgb[3][CLI_PALETTE_SIZE];
@@ -142,7 +149,7 @@ char *cli_figure_text(const char *text) {
     return masked;
 }
 
-static cli_scale scale_of(const cli_picture *picture, size_t row) {
+cli_scale cli_figure_scale(const cli_picture *picture, size_t row) {
     cli_scale scale = {INFINITY, -INFINITY, picture->is_signed[row]};
     for (size_t c = 0; c < picture->columns; ++c) {
         size_t nodes = srp_grid_node_count(picture->grid[c]);
@@ -243,7 +250,7 @@ static bool draw_surfaces(const cli_figure_options *options, const cli_picture *
     bool good = true;
     cli_look look = {{options->view[0], options->view[1]}, format_of(options->output)->steps_max};
     for (size_t r = 0; r < picture->rows; ++r) {
-        cli_scale scale = scale_of(picture, r);
+        cli_scale scale = cli_figure_scale(picture, r);
         for (size_t c = 0; c < picture->columns; ++c) {
             size_t across = picture->columns > 1 ? c : r % 2;
             size_t down = picture->columns > 1 || picture->rows == 1 ? r : r / 2;
@@ -260,7 +267,7 @@ static bool draw_maps(const cli_figure_options *options, const cli_picture *pict
     bool good = true;
     const format *kind = format_of(options->output);
     for (size_t r = 0; r < picture->rows; ++r) {
-        cli_scale scale = scale_of(picture, r);
+        cli_scale scale = cli_figure_scale(picture, r);
         for (size_t k = 0; k < 2; ++k) {
             double left = k == 0 ? 85.0 : picture->columns > 1 ? 625.0 : 590.0;
             cli_panel panel = cell(options, picture, left, left + 460.0, r);
@@ -321,7 +328,7 @@ int cli_figure_write(const cli_figure_options *options, const cli_picture *pictu
     }
     FILE *probe = fopen(part, "wb"); /* PLplot asks for another name */
     if (probe == NULL) {
-        fprintf(stderr, "%s: cannot write: %s\n", options->output, strerror(errno));
+        cli_say_of_file("%s: cannot write: %s", options->output, strerror(errno));
         free(part);
         return CLI_MACHINE_FAILED;
     }
@@ -339,7 +346,7 @@ int cli_figure_write(const cli_figure_options *options, const cli_picture *pictu
         whole = kind->finish(part) && is_whole(part, kind);
     }
     if (!whole) {
-        fprintf(stderr, "%s: the figure could not be written\n", options->output);
+        cli_say_of_file("%s: the figure could not be written", options->output);
         remove(part);
     } else {
         status = cli_part_rename(part, options->output);

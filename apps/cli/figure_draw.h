@@ -32,6 +32,13 @@ typedef struct cli_look {
 /* Space between marks on an axis that gives about `count` of them: 1, 2 or 5 times a power of 10.
  */
 double cli_figure_step(double range, int count);
+/* What a row's values span over all columns. */
+cli_scale cli_figure_scale(const cli_picture *picture, size_t row);
+/* The ends of an axis for it, which begins and ends at marks; returns the space between them. */
+double cli_figure_axis(cli_scale scale, double *low, double *high);
+/* The plane that the box of a surface is drawn on, seen like this (figure_surface.c). */
+void cli_figure_window(const double view[2], double *left, double *right, double *bottom,
+                       double *top);
 /* Loads the colours that stand for `low` to `high` on this scale into map 1. */
 void cli_figure_colours(cli_scale scale, double low, double high);
 /* `text` with PLplot's own escapes masked; freed by the caller. NULL without memory. */

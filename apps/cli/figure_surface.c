@@ -57,18 +57,23 @@ static bool surface_make(surface *s, srp_grid grid, const double *value, uint32_
     return true;
 }
 
+/* Height of the box whose base is 1 by 1. */
+static const double BOX_HEIGHT = 1.0;
+
 /* A window that holds the box of the plot, seen like this, and its labels. */
-static void set_window(const double view[2], double height) {
+void cli_figure_window(const double view[2], double *left, double *right, double *bottom,
+                       double *top) {
     double az = view[0] * SRP_RAD_PER_DEG, alt = view[1] * SRP_RAD_PER_DEG;
-    double half = 0.5 * (fabs(cos(az)) + fabs(sin(az)));
-    double base = half * sin(alt), top = base + height * cos(alt);
-    plwind(-half - 0.26, half + 0.24, -base - 0.20, top + 0.03);
+    double half = 0.5 * (fabs(cos(az)) + fabs(sin(az))), base = half * sin(alt);
+    *left = -half - 0.26;
+    *right = half + 0.24;
+    *bottom = -base - 0.20;
+    *top = base + BOX_HEIGHT * cos(alt) + 0.03;
 }
 
 bool cli_figure_surface(const cli_panel *panel, const cli_picture *picture, size_t column,
                         size_t row, cli_scale scale, const cli_look *look) {
     const double *view = look->view;
-    const double height = 1.0;
     surface s;
     if (!surface_make(&s, picture->grid[column], picture->field[column][row].value,
                       look->steps_max)) {
@@ -79,14 +84,14 @@ bool cli_figure_surface(const cli_panel *panel, const cli_picture *picture, size
         s.high = s.low + 1e-6 * (scale.high - scale.low);
     }
     /* Axes begin and end at marks; PLplot spreads the colours over the whole of them. */
-    double step = cli_figure_step(scale.high - scale.low, 4);
-    double low = step * floor(scale.low / step + 1e-9);
-    double high = step * ceil(scale.high / step - 1e-9);
+    double low, high, step = cli_figure_axis(scale, &low, &high);
     cli_figure_colours(scale, low, high);
     plcol0(INK_BLACK);
     plvpor(panel->left, panel->right, panel->bottom, panel->top);
-    set_window(view, height);
-    plw3d(1.0, 1.0, height, -180.0, 180.0, -90.0, 90.0, low, high, view[1], view[0]);
+    double left, right, bottom, top;
+    cli_figure_window(view, &left, &right, &bottom, &top);
+    plwind(left, right, bottom, top);
+    plw3d(1.0, 1.0, BOX_HEIGHT, -180.0, 180.0, -90.0, 90.0, low, high, view[1], view[0]);
     plszax(5, 0);
     plbox3("bnstu", "az [deg]", 90.0, 3, "bnstu", "el [deg]", 45.0, 3, "bcdmnstuv",
            picture->name[row], step, 0);

@@ -69,7 +69,7 @@ static bool add_normal(cli_normals *to, srp_vec3 normal) {
 }
 
 static int too_many(const char *path) {
-    fprintf(stderr, "%s: more than %d normals\n", path, CLI_NORMALS_MAX);
+    cli_say_of_file("%s: more than %d normals", path, CLI_NORMALS_MAX);
     return CLI_BAD_INPUT;
 }
 
@@ -108,9 +108,8 @@ static int read_line(const char *path, size_t number, char *line, cli_normals *o
     }
     double length = count == 3 ? srp_vec3_norm(srp_vec3_make(v[0], v[1], v[2])) : 0.0;
     if (!(length > 0.0) || !isfinite(length)) {
-        fprintf(stderr,
-                "%s:%zu: expected the three finite numbers of a normal, not all of them 0\n", path,
-                number);
+        cli_say_of_file("%s:%zu: expected the three finite numbers of a normal, not all of them 0",
+                        path, number);
         return CLI_BAD_INPUT;
     }
     return add_normal(out, srp_vec3_make(v[0], v[1], v[2])) ? CLI_DONE : too_many(path);
@@ -121,8 +120,8 @@ static int from_lines(const char *path, cli_normals *out) {
     errno = 0;
     FILE *in = fopen(path, "r");
     if (in == NULL) {
-        fprintf(stderr, "%s: cannot read: %s\n", path,
-                errno != 0 ? strerror(errno) : "unknown error");
+        cli_say_of_file("%s: cannot read: %s", path,
+                        errno != 0 ? strerror(errno) : "unknown error");
         return CLI_BAD_INPUT;
     }
     int status = CLI_DONE;
@@ -130,12 +129,12 @@ static int from_lines(const char *path, cli_normals *out) {
         status = read_line(path, number, line, out);
     }
     if (status == CLI_DONE && ferror(in)) {
-        fprintf(stderr, "%s: cannot read\n", path);
+        cli_say_of_file("%s: cannot read", path);
         status = CLI_BAD_INPUT;
     }
     fclose(in);
     if (status == CLI_DONE && out->count == 0) {
-        fprintf(stderr, "%s: holds no normals, expected three numbers in each line\n", path);
+        cli_say_of_file("%s: holds no normals, expected three numbers in each line", path);
         status = CLI_BAD_INPUT;
     }
     return status;

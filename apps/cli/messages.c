@@ -6,30 +6,53 @@
 
 static const char *program_name = "srp";
 
+enum { TEXT_SIZE = 2048 }; /* file name, place and message of an srp_error, and more */
+
+static _Thread_local cli_message_taker taker;
+static _Thread_local void *taker_user;
+
 void cli_messages_begin(const char *program) {
     program_name = program;
 }
 
-static void say(const char *format, va_list arguments) {
+void cli_messages_to(cli_message_taker take, void *user) {
+    taker = take;
+    taker_user = user;
+}
+
+static void say(const char *prefix, const char *format, va_list arguments) {
+    char text[TEXT_SIZE];
+    vsnprintf(text, sizeof text, format, arguments);
+    if (taker != NULL) {
+        taker(taker_user, text);
+        return;
+    }
     fflush(stdout);
-    fprintf(stderr, "%s: ", program_name);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
+    fprintf(stderr, "%s%s%s\n", prefix, prefix[0] != '\0' ? ": " : "", text);
 }
 
 void cli_say(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    say(format, arguments);
+    say(program_name, format, arguments);
+    va_end(arguments);
+}
+
+void cli_say_of_file(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    say("", format, arguments);
     va_end(arguments);
 }
 
 int cli_usage_error(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    say(format, arguments);
+    say(program_name, format, arguments);
     va_end(arguments);
-    fprintf(stderr, "Try '%s --help' for more information.\n", program_name);
+    if (taker == NULL) {
+        fprintf(stderr, "Try '%s --help' for more information.\n", program_name);
+    }
     return CLI_BAD_USAGE;
 }
 
@@ -38,16 +61,13 @@ bool cli_reject(const cli_option *option, const char *text, const char *expected
     return false;
 }
 
-enum { TEXT_SIZE = 1536 }; /* file name, place and message of an srp_error */
-
 static void print_error(const srp_error *error) {
     char text[TEXT_SIZE];
     srp_error_format(error, text, sizeof text);
     if (error->file[0] == '\0') {
         cli_say("%s", text);
     } else {
-        fflush(stdout);
-        fprintf(stderr, "%s\n", text);
+        cli_say_of_file("%s", text);
     }
 }
 

@@ -10,8 +10,15 @@
 /* Messages without a file begin with this: "srp table". A constant string. */
 void cli_messages_begin(const char *program);
 
+/* Where the messages of this thread go: to `take`, a line each, without the program's name; NULL:
+ * to stderr, as at the start. For programs with a window. */
+typedef void (*cli_message_taker)(void *user, const char *text);
+void cli_messages_to(cli_message_taker take, void *user);
+
 /* Words on stderr, with the program's name in front. */
 void cli_say(const char *format, ...) SRP_PRINTF(1, 2);
+/* The same about a file, which the words begin with: no name in front. */
+void cli_say_of_file(const char *format, ...) SRP_PRINTF(1, 2);
 /* The same, and how to get help. Returns CLI_BAD_USAGE. */
 int cli_usage_error(const char *format, ...) SRP_PRINTF(1, 2);
 /* "--grid x: expected ..."; false, for setters of options. */

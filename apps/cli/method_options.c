@@ -232,6 +232,10 @@ static bool uses(const srp_method *method, use what) {
            (what.capabilities == 0 || (method->capabilities & what.capabilities) != 0);
 }
 
+bool cli_method_uses(const srp_method *method, int option) {
+    return uses(method, METHOD_USE[option]);
+}
+
 enum { NAMES_SIZE = 256 };
 
 /* Names of the methods that use it, with commas. */

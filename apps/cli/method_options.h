@@ -59,6 +59,9 @@ bool cli_set_unit(const cli_option *option, void *target, const char *text);
 cli_model_options cli_model_options_default(void);
 cli_method_options cli_method_options_default(void);
 
+/* Does `method` use the option METHOD_..., which is then worth showing? */
+bool cli_method_uses(const srp_method *method, int option);
+
 /*
  * The method that is meant and its parameters, after a check that it uses every option given and
  * lacks none. Reads no file. CLI_DONE, or CLI_BAD_USAGE after saying why.

@@ -9,8 +9,7 @@
 
 static const char MATERIAL_EXPECTED[] = "NAME=RHO_S,RHO_D or NAME=RHO_S,RHO_D,one-sided";
 
-/* Splits NAME=RHO_S,RHO_D[,one-sided]; the name may hold '=' itself. `name` has room for `text`. */
-static bool split_material(const char *text, char *name, srp_optics *optics) {
+bool cli_material_split(const char *text, char *name, srp_optics *optics) {
     const char *equals = strrchr(text, '=');
     if (equals == NULL) {
         return false;
@@ -47,7 +46,7 @@ static int add_material(srp_materials *materials, const char *text) {
     }
     srp_optics optics;
     int exit_status = CLI_DONE;
-    if (!split_material(text, name, &optics)) {
+    if (!cli_material_split(text, name, &optics)) {
         exit_status = cli_usage_error("--material %s: expected %s", text, MATERIAL_EXPECTED);
     } else {
         srp_error error;

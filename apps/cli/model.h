@@ -14,6 +14,9 @@ typedef struct cli_model {
     srp_prepared *prepared;
 } cli_model;
 
+/* Splits NAME=RHO_S,RHO_D[,one-sided]; the name may hold '=' itself. `name` has room for `text`. */
+bool cli_material_split(const char *text, char *name, srp_optics *optics);
+
 /* The materials of --material, pinned. CLI_DONE, or what went wrong after saying it; then *out is
  * unchanged. */
 int cli_materials_given(const cli_list *list, srp_materials **out);

@@ -42,7 +42,7 @@ static int check_output(const char *path, cli_table_content content, const char 
     }
     const char *reason;
     if (!cli_system_can_write(path, &reason)) {
-        fprintf(stderr, "%s: cannot write: %s\n", path, reason);
+        cli_say_of_file("%s: cannot write: %s", path, reason);
         return CLI_MACHINE_FAILED;
     }
     return CLI_DONE;

@@ -46,8 +46,8 @@ int cli_table_read(const char *path, srp_table **out) {
         return cli_input_error(&error);
     }
     if (!srp_table_is_complete(table)) {
-        fprintf(stderr, "%s: only %zu of %zu nodes are there, expected a complete table\n", path,
-                srp_table_filled_count(table), srp_grid_node_count(srp_table_grid(table)));
+        cli_say_of_file("%s: only %zu of %zu nodes are there, expected a complete table", path,
+                        srp_table_filled_count(table), srp_grid_node_count(srp_table_grid(table)));
         srp_table_destroy(table);
         return CLI_BAD_INPUT;
     }

@@ -14,25 +14,25 @@ int cli_table_check(const srp_table *table, const char *path) {
         for (uint32_t j = 0; j < grid.el_count; ++j) {
             const srp_response *node = srp_table_node(table, i, j);
             if (node == NULL || !srp_vec3_is_finite(node->f) || !srp_vec3_is_finite(node->t)) {
-                fprintf(stderr,
-                        "%s: the node at azimuth %g, elevation %g is %s, expected finite numbers\n",
-                        path, srp_grid_azimuth_deg(grid, i), srp_grid_elevation_deg(grid, j),
-                        node == NULL ? "empty" : "not finite");
+                cli_say_of_file(
+                    "%s: the node at azimuth %g, elevation %g is %s, expected finite numbers", path,
+                    srp_grid_azimuth_deg(grid, i), srp_grid_elevation_deg(grid, j),
+                    node == NULL ? "empty" : "not finite");
                 return CLI_BAD_INPUT;
             }
             largest = fmax(largest, srp_vec3_norm(node->f));
         }
     }
     if (largest == 0.0) {
-        fprintf(stderr, "%s: the force is 0 from all directions, expected a spacecraft\n", path);
+        cli_say_of_file("%s: the force is 0 from all directions, expected a spacecraft", path);
         return CLI_BAD_INPUT;
     }
     double pull = srp_table_pull_share(table);
     if (pull > SRP_TABLE_PULL_LIMIT) {
-        fprintf(stderr,
-                "%s: light pulls from %.0f %% of the directions: the signs follow the opposite "
-                "convention; 'srp convert --flip' turns them round\n",
-                path, 100.0 * pull);
+        cli_say_of_file(
+            "%s: light pulls from %.0f %% of the directions: the signs follow the opposite "
+            "convention; 'srp convert --flip' turns them round",
+            path, 100.0 * pull);
         return CLI_BAD_INPUT;
     }
     return CLI_DONE;

@@ -9,7 +9,7 @@
 #include <string.h>
 
 static int cannot_write(const char *path) {
-    fprintf(stderr, "%s: cannot write: %s\n", path, errno != 0 ? strerror(errno) : "unknown error");
+    cli_say_of_file("%s: cannot write: %s", path, errno != 0 ? strerror(errno) : "unknown error");
     return CLI_MACHINE_FAILED;
 }
 

@@ -9,7 +9,7 @@
 enum {
     SIDES = 16,
     BALL_RINGS = 8,
-    ARROW_CORNERS = SIDES * 12,
+    ARROW_CORNERS = SIDES * (9 + 6), /* shaft and head */
     BALL_CORNERS = SIDES * BALL_RINGS * 6
 };
 

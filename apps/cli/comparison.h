@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Two tables on one grid, the finer of theirs: how far B is from A, in numbers and at every node.
+ */
+#ifndef SRP_CLI_COMPARISON_H
+#define SRP_CLI_COMPARISON_H
+
+#include "difference.h"
+
+#include <srp/interp.h>
+#include <srp/table.h>
+
+typedef struct cli_comparison {
+    /* What is compared; set by the caller, who keeps it. */
+    const srp_table *table[2];
+    const char *name[2];             /* for messages */
+    bool moment;                     /* moments instead of forces */
+    const srp_interp_scheme *scheme; /* for the table that lacks nodes of the finer grid */
+    /* What is found. */
+    srp_interp *interp[2]; /* NULL where the table has all nodes of the grid */
+    srp_grid grid;
+    size_t directions;
+    cli_difference difference;
+} cli_comparison;
+
+/* Finds all that is found; of moments only about one reference point. An exit status, said if not
+ * CLI_DONE. cli_comparison_release() in any case. */
+int cli_comparison_make(cli_comparison *c);
+void cli_comparison_release(cli_comparison *c);
+
+enum { CLI_COMPARISON_FIELDS = 4 };
+/* x, y, z of B - A and its length at the nodes of the grid (CLI_COMPARISON_FIELDS, nodes). */
+void cli_comparison_fields(const cli_comparison *c, double *value);
+
+#endif

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Plates that are fitted to a table, with words about what stands in the way. */
+#ifndef SRP_CLI_TABLE_FIT_H
+#define SRP_CLI_TABLE_FIT_H
+
+#include "plate_fit.h"
+
+/* Searches `count` normals (count) for a table, of which `samples` are all directions. `name` is
+ * for messages. An exit status, said if not CLI_DONE, as is the other's. */
+int cli_table_search(const srp_table *table, const char *name, const cli_samples *samples,
+                     size_t count, srp_vec3 *normals);
+/* Fits plates with these normals; *out is freed by cli_plate_fit_free(), and as it was unless done.
+ */
+int cli_table_fit(const char *name, const cli_samples *samples, size_t count,
+                  const srp_vec3 *normals, cli_plate_fit *out);
+
+#endif

@@ -1,0 +1,497 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "actions.h"
+
+#include "exchange.h"
+#include "fit.h"
+#include "methods.h"
+#include "numbers.h"
+#include "orbit.h"
+#include "screenshot.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- spacecraft ---- */
+
+static void open_model(viewer *v, GVariant *parameter) {
+    viewer_exchange_open(v, g_variant_get_string(parameter, NULL));
+}
+
+static void choose_model(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_exchange_ask_open(v);
+}
+
+static void reload(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_request_engine(v, true);
+}
+
+/* After something was said of the setup: `good` or not, with the words about it. */
+static void setup_said(viewer *v, bool good, const viewer_words *problem) {
+    viewer_complain(v, good ? "" : problem->text);
+    viewer_tell(v, CHANGED_SETUP);
+    if (good) {
+        viewer_request_engine(v, false);
+    }
+}
+
+static void set_unit(viewer *v, GVariant *parameter) {
+    viewer_words problem = {""};
+    const char *text = g_variant_get_string(parameter, NULL);
+    bool good = viewer_setup_set_model_option(v->session->setup, MODEL_UNIT,
+                                              strcmp(text, "m") == 0 ? "" : text, &problem);
+    setup_said(v, good, &problem);
+}
+
+static void set_plates(viewer *v, GVariant *parameter) {
+    viewer_words problem = {""};
+    bool good = viewer_setup_set_model_option(v->session->setup, MODEL_PLATES,
+                                              g_variant_get_string(parameter, NULL), &problem);
+    setup_said(v, good, &problem);
+}
+
+static void choose_plates(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_exchange_ask_plates(v);
+}
+
+static void set_mass(viewer *v, GVariant *parameter) {
+    viewer_words problem = {""};
+    bool good =
+        viewer_setup_set_mass(v->session->setup, g_variant_get_string(parameter, NULL), &problem);
+    viewer_complain(v, good ? "" : problem.text);
+    if (good && v->session->engine != NULL) {
+        v->session->engine->setup->mass = v->session->setup->mass;
+    }
+    viewer_tell(v, CHANGED_SETUP | CHANGED_FORCE);
+}
+
+/* "NAME=RHO_S,RHO_D[,one-sided]"; "" forgets all that was said. */
+static void set_material(viewer *v, GVariant *parameter) {
+    const char *text = g_variant_get_string(parameter, NULL);
+    viewer_words problem = {""};
+    bool good = true;
+    if (text[0] == '\0') {
+        viewer_setup_clear_materials(v->session->setup);
+    } else {
+        good = viewer_setup_set_material_text(v->session->setup, text, &problem);
+    }
+    setup_said(v, good, &problem);
+}
+
+/* ---- method ---- */
+
+/* The option of this name; -1: none. */
+static int option_named(const char *name) {
+    for (int i = 0; i < METHOD_OPTION_COUNT; ++i) {
+        if (strcmp(cli_group_method.options[i].name, name) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static void set_option(viewer *v, int option, const char *text) {
+    viewer_words problem = {""};
+    bool good = viewer_setup_set_method_option(v->session->setup, option, text, &problem);
+    setup_said(v, good, &problem);
+}
+
+static void set_method(viewer *v, GVariant *parameter) {
+    viewer_setup *setup = v->session->setup;
+    const char *name = g_variant_get_string(parameter, NULL);
+    viewer_words problem = {""};
+    /* A device that lacks the method gives way. */
+    if (viewer_setup_set_method_option(setup, METHOD_NAME, name, &problem) &&
+        viewer_setup_method(setup) == NULL) {
+        viewer_setup_set_method_option(setup, METHOD_DEVICE, "", &problem);
+    }
+    setup_said(v, true, &problem);
+}
+
+static void set_device(viewer *v, GVariant *parameter) {
+    const char *text = g_variant_get_string(parameter, NULL);
+    set_option(v, METHOD_DEVICE, strcmp(text, "cpu") == 0 ? "" : text);
+}
+
+/* "grid=1024"; "grid=" is the default. */
+static void set_parameter(viewer *v, GVariant *parameter) {
+    const char *text = g_variant_get_string(parameter, NULL);
+    const char *equals = strchr(text, '=');
+    char name[32] = "";
+    if (equals != NULL && (size_t)(equals - text) < sizeof name) {
+        memcpy(name, text, (size_t)(equals - text));
+        name[equals - text] = '\0';
+    }
+    int option = option_named(name);
+    if (option < 0 || equals == NULL) {
+        viewer_complain(v, "expected NAME=VALUE with the name of an option of 'srp force'");
+        return;
+    }
+    set_option(v, option, equals + 1);
+}
+
+/* ---- attitude ---- */
+
+static void sun_moved(viewer *v) {
+    viewer_tell(v, CHANGED_SUN);
+    viewer_request_force(v);
+}
+
+static void turn(viewer *v, int axis, GVariant *parameter) {
+    double degrees = g_variant_get_double(parameter);
+    if (isfinite(degrees) && v->session->attitude.turn_deg[axis] != degrees) {
+        v->session->attitude.turn_deg[axis] = fmax(-180.0, fmin(180.0, degrees));
+        sun_moved(v);
+    }
+}
+
+static void turn_x(viewer *v, GVariant *parameter) {
+    turn(v, 0, parameter);
+}
+
+static void turn_y(viewer *v, GVariant *parameter) {
+    turn(v, 1, parameter);
+}
+
+static void turn_z(viewer *v, GVariant *parameter) {
+    turn(v, 2, parameter);
+}
+
+/* "AZ,EL" in degrees. */
+static void set_sun(viewer *v, GVariant *parameter) {
+    double at[2];
+    if (!cli_read_numbers(g_variant_get_string(parameter, NULL), 2, at) || fabs(at[0]) > 360.0 ||
+        fabs(at[1]) > 90.0) {
+        viewer_complain(v, "expected AZ,EL: degrees from -360 to 360 and from -90 to 90");
+        return;
+    }
+    v->session->attitude = viewer_attitude_for_sun(at[0], at[1]);
+    sun_moved(v);
+}
+
+static void reset_attitude(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    v->session->attitude = (viewer_attitude){{0.0, 0.0, 0.0}};
+    sun_moved(v);
+}
+
+static void toggle_record(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    v->session->recording = !v->session->recording;
+    if (v->session->recording && v->session->force_known &&
+        !viewer_session_set_force(v->session, &v->session->force)) {
+        viewer_complain(v, "no memory for the arrow");
+    }
+    viewer_tell(v, CHANGED_ARROWS);
+}
+
+static void clear_arrows(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_session_clear_arrows(v->session);
+    viewer_tell(v, CHANGED_ARROWS);
+}
+
+/* ---- looks ---- */
+
+static void set_colouring(viewer *v, GVariant *parameter) {
+    const char *text = g_variant_get_string(parameter, NULL);
+    v->colouring = strcmp(text, "incidence") == 0 ? COLOUR_INCIDENCE
+                   : strcmp(text, "force") == 0   ? COLOUR_FORCE
+                                                  : COLOUR_MATERIAL;
+    viewer_tell(v, CHANGED_VIEW);
+}
+
+/* "AZ,EL[,ZOOM]" */
+static void set_camera(viewer *v, GVariant *parameter) {
+    const char *text = g_variant_get_string(parameter, NULL);
+    double at[3];
+    if (!cli_read_numbers(text, 3, at) &&
+        !(at[2] = v->camera.zoom, cli_read_numbers(text, 2, at))) {
+        viewer_complain(v, "expected AZ,EL or AZ,EL,ZOOM");
+        return;
+    }
+    v->camera =
+        (viewer_camera){at[0], fmax(-90.0, fmin(90.0, at[1])), fmax(0.05, fmin(50.0, at[2]))};
+    viewer_tell(v, CHANGED_VIEW);
+}
+
+static void zoom_in(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    v->camera.zoom = fmin(50.0, 1.25 * v->camera.zoom);
+    viewer_tell(v, CHANGED_VIEW);
+}
+
+static void zoom_out(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    v->camera.zoom = fmax(0.05, v->camera.zoom / 1.25);
+    viewer_tell(v, CHANGED_VIEW);
+}
+
+static void reset_view(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    v->camera = (viewer_camera){-50.0, 24.0, 1.0};
+    viewer_tell(v, CHANGED_VIEW);
+}
+
+static void toggle_shadows(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    v->shadows = !v->shadows;
+    viewer_tell(v, CHANGED_VIEW);
+}
+
+static void toggle_dark(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    GtkSettings *settings = gtk_widget_get_settings(GTK_WIDGET(v->window));
+    gboolean dark;
+    g_object_get(settings, "gtk-application-prefer-dark-theme", &dark, NULL);
+    g_object_set(settings, "gtk-application-prefer-dark-theme", !dark, NULL);
+    viewer_tell(v, CHANGED_VIEW);
+}
+
+static void show_tab(viewer *v, GVariant *parameter) {
+    const char *name = g_variant_get_string(parameter, NULL);
+    for (int i = 0; i < TAB_COUNT; ++i) {
+        if (strcmp(name, VIEWER_TAB_NAME[i]) == 0 && i < gtk_notebook_get_n_pages(v->tabs)) {
+            gtk_notebook_set_current_page(v->tabs, i);
+            return;
+        }
+    }
+    viewer_complain(v, "expected the tab spacecraft, graphics, compare or orbit");
+}
+
+/* ---- tables ---- */
+
+static void set_az_step(viewer *v, GVariant *parameter) {
+    v->az_step_deg = g_variant_get_double(parameter);
+    viewer_tell(v, CHANGED_SETUP);
+}
+
+static void set_el_step(viewer *v, GVariant *parameter) {
+    v->el_step_deg = g_variant_get_double(parameter);
+    viewer_tell(v, CHANGED_SETUP);
+}
+
+static void compute_table(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_request_table(v);
+}
+
+static void cancel(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_cancel_table(v);
+    viewer_fit_cancel(v);
+#ifdef SRP_CLI_HAS_ORBIT
+    viewer_orbit_cancel(v);
+#endif
+}
+
+/* Tables are counted from 1, as lists show them. */
+static void choose_table(viewer *v, GVariant *parameter, int *choice) {
+    int number = g_variant_get_int32(parameter);
+    if (number < 1 || (size_t)number > v->session->table_count) {
+        viewer_complain(v, "there is no table of this number");
+        return;
+    }
+    *choice = number - 1;
+    viewer_tell(v, CHANGED_TABLES);
+}
+
+static void show_table(viewer *v, GVariant *parameter) {
+    choose_table(v, parameter, &v->table_shown);
+}
+
+static void clear_tables(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    if (viewer_fit_is_running(v)) {
+        viewer_complain(v, "Plates are being fitted to a table: cancel that first.");
+        return;
+    }
+    v->table_shown = v->compared[0] = v->compared[1] = -1;
+    viewer_session_clear_tables(v->session);
+    viewer_tell(v, CHANGED_TABLES);
+}
+
+static void compare_a(viewer *v, GVariant *parameter) {
+    choose_table(v, parameter, &v->compared[0]);
+}
+
+/* The number of plates. */
+static void fit(viewer *v, GVariant *parameter) {
+    int plates = g_variant_get_int32(parameter);
+    viewer_fit_request(v, plates > 0 ? (unsigned)plates : 1);
+}
+
+static void compare_b(viewer *v, GVariant *parameter) {
+    choose_table(v, parameter, &v->compared[1]);
+}
+
+static void open_table(viewer *v, GVariant *parameter) {
+    viewer_exchange_open_table(v, g_variant_get_string(parameter, NULL));
+}
+
+static void choose_table_file(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_exchange_ask_table(v);
+}
+
+static void save(viewer *v, GVariant *parameter) {
+    viewer_exchange_save(v, g_variant_get_string(parameter, NULL));
+}
+
+static void choose_save(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_exchange_ask_save(v);
+}
+
+static void toggle_together(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    v->charts_together = !v->charts_together;
+    viewer_tell(v, CHANGED_VIEW);
+}
+
+#ifdef SRP_CLI_HAS_ORBIT
+/* ---- orbits ---- */
+
+static void open_mission(viewer *v, GVariant *parameter) {
+    viewer_orbit_open(v, 0, g_variant_get_string(parameter, NULL));
+}
+
+static void open_versus(viewer *v, GVariant *parameter) {
+    viewer_orbit_open(v, 1, g_variant_get_string(parameter, NULL));
+}
+
+static void choose_mission(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_exchange_ask_mission(v, 0);
+}
+
+static void choose_versus(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_exchange_ask_mission(v, 1);
+}
+
+static void propagate(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_orbit_run(v);
+}
+#endif
+
+/* ---- the program ---- */
+
+static void copy_command(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    char *line = viewer_exchange_force_command(v);
+    if (line != NULL) {
+        gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(v->window)), line);
+        viewer_say(v, line);
+        free(line);
+    }
+}
+
+static void take_screenshot(viewer *v, GVariant *parameter) {
+    viewer_screenshot(v, g_variant_get_string(parameter, NULL));
+}
+
+static void about(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    gtk_show_about_dialog(v->window, "program-name", "srp-viewer", "version", SRP_VERSION,
+                          "comments", "Solar radiation pressure on spacecraft, to be looked at",
+                          "license-type", GTK_LICENSE_APACHE_2_0, "logo-icon-name", "srp-viewer",
+                          NULL);
+}
+
+static void close_window(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    gtk_window_close(v->window);
+}
+
+static const viewer_action ACTIONS[] = {
+    {"open", "s", NULL, "Open an OBJ file.", open_model},
+    {"choose-model", NULL, "<Control>o", "Ask for an OBJ file.", choose_model},
+    {"reload", NULL, "<Control>r F5", "Read the files again.", reload},
+    {"unit", "s", NULL, "Unit of the OBJ file: m, cm, mm, in, ft or a number of metres.", set_unit},
+    {"plates", "s", NULL, "Plates file of the method nplate.", set_plates},
+    {"choose-plates", NULL, NULL, "Ask for a plates file.", choose_plates},
+    {"mass", "s", NULL, "Mass in kg; empty: not given.", set_mass},
+    {"material", "s", NULL, "NAME=RHO_S,RHO_D[,one-sided]; empty: as the files say.", set_material},
+    {"method", "s", NULL, "Name of the method.", set_method},
+    {"device", "s", NULL, "cpu, gl:osmesa, gl:egl.", set_device},
+    {"parameter", "s", NULL, "NAME=VALUE, an option of 'srp force'.", set_parameter},
+    {"turn-x", "d", NULL, "Rotation about X in degrees.", turn_x},
+    {"turn-y", "d", NULL, "Rotation about Y in degrees.", turn_y},
+    {"turn-z", "d", NULL, "Rotation about Z in degrees.", turn_z},
+    {"sun", "s", NULL, "AZ,EL of the Sun in body axes, degrees.", set_sun},
+    {"reset-attitude", NULL, "<Control>0", "All rotations to 0.", reset_attitude},
+    {"record", NULL, "<Control>b", "Start or stop recording arrows.", toggle_record},
+    {"clear-arrows", NULL, "<Control>Delete", "Forget all arrows.", clear_arrows},
+    {"colouring", "s", NULL, "Colours of facets: material, incidence or force.", set_colouring},
+    {"camera", "s", NULL, "AZ,EL[,ZOOM] of the eye; the Sun stands at 0,0.", set_camera},
+    {"zoom-in", NULL, "<Control>plus <Control>equal", "Nearer.", zoom_in},
+    {"zoom-out", NULL, "<Control>minus", "Farther.", zoom_out},
+    {"reset-view", NULL, "<Control>Home", "The camera as at the start.", reset_view},
+    {"shadows", NULL, NULL, "Shadows on or off.", toggle_shadows},
+    {"dark", NULL, "<Control>d", "Dark style on or off.", toggle_dark},
+    {"tab", "s", NULL, "Show spacecraft, graphics, compare or orbit.", show_tab},
+    {"az-step", "d", NULL, "Step of azimuth for tables, degrees.", set_az_step},
+    {"el-step", "d", NULL, "Step of elevation for tables, degrees.", set_el_step},
+    {"compute-table", NULL, "<Control>t", "Compute a table.", compute_table},
+    {"cancel", NULL, "<Control>period", "Stop what is computed.", cancel},
+    {"show-table", "i", NULL, "Show the table of this number.", show_table},
+    {"clear-tables", NULL, NULL, "Forget all tables.", clear_tables},
+    {"open-table", "s", NULL, "Open a table from disk.", open_table},
+    {"choose-table", NULL, "<Control><Shift>o", "Ask for a table.", choose_table_file},
+    {"save", "s", NULL,
+     "Save the table shown (.nc, .spo, .txt), its figure (.png, .svg, .pdf), or the comparison's.",
+     save},
+    {"choose-save", NULL, "<Control>s", "Ask where to save.", choose_save},
+    {"turn-together", NULL, NULL, "Turn the four surfaces together or apart.", toggle_together},
+    {"compare-a", "i", NULL, "The table that is compared with.", compare_a},
+    {"compare-b", "i", NULL, "The table that is compared.", compare_b},
+    {"fit", "i", NULL, "Fit so many plates to table A; what they give becomes B.", fit},
+#ifdef SRP_CLI_HAS_ORBIT
+    {"mission", "s", NULL, "Open a mission file.", open_mission},
+    {"choose-mission", NULL, NULL, "Ask for a mission file.", choose_mission},
+    {"versus", "s", NULL, "Open the mission to compare with; empty: none.", open_versus},
+    {"choose-versus", NULL, NULL, "Ask for the mission to compare with.", choose_versus},
+    {"propagate", NULL, NULL, "Run the missions.", propagate},
+#endif
+    {"copy-command", NULL, "<Control><Shift>c", "Copy the command line that does the same.",
+     copy_command},
+    {"screenshot", "s", NULL, "Save a picture of the window as PNG.", take_screenshot},
+    {"about", NULL, NULL, "About this program.", about},
+    {"close", NULL, "<Control>q <Control>w", "Close the window.", close_window},
+};
+
+const viewer_action *viewer_action_list(size_t *count) {
+    *count = G_N_ELEMENTS(ACTIONS);
+    return ACTIONS;
+}
+
+static void on_activate(GSimpleAction *action, GVariant *parameter, gpointer user) {
+    const viewer_action *which = g_object_get_data(G_OBJECT(action), "which");
+    which->run(user, parameter);
+}
+
+void viewer_actions_add(viewer *v) {
+    for (size_t i = 0; i < G_N_ELEMENTS(ACTIONS); ++i) {
+        const viewer_action *which = &ACTIONS[i];
+        GVariantType *type = which->type != NULL ? g_variant_type_new(which->type) : NULL;
+        GSimpleAction *action = g_simple_action_new(which->name, type);
+        g_object_set_data(G_OBJECT(action), "which", (gpointer)(uintptr_t)which);
+        g_signal_connect(action, "activate", G_CALLBACK(on_activate), v);
+        g_action_map_add_action(G_ACTION_MAP(v->window), G_ACTION(action));
+        if (which->keys != NULL) {
+            char **keys = g_strsplit(which->keys, " ", -1);
+            char *full = g_strconcat("win.", which->name, NULL);
+            gtk_application_set_accels_for_action(v->application, full, (const char *const *)keys);
+            g_free(full);
+            g_strfreev(keys);
+        }
+        g_object_unref(action);
+        if (type != NULL) {
+            g_variant_type_free(type);
+        }
+    }
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "chart_page.h"
+
+#include "figure_draw.h"
+
+#include <srp/const.h>
+
+#include <math.h>
+#include <setjmp.h>
+
+/* PLplot ends the program when it fails, unless it is led out. */
+static jmp_buf way_out;
+
+static int leave(const char *message) {
+    (void)message;
+    longjmp(way_out, 1);
+}
+
+static PLINT byte(double share) {
+    return (PLINT)lround(255.0 * share);
+}
+
+static void open_page(const viewer_page *page, cairo_t *cr) {
+    plsdev("extcairo");
+    plscolbg(byte(page->paper[0]), byte(page->paper[1]), byte(page->paper[2]));
+    plspage(90.0, 90.0, page->width, page->height, 0, 0);
+    plscol0(INK_BLACK, byte(page->ink[0]), byte(page->ink[1]), byte(page->ink[2]));
+    plscol0(INK_GREY, 120, 120, 120);
+    plfontld(1);
+    plinit();
+    pl_cmd(PLESC_DEVINIT, cr);
+    plschr(fmin(3.6, 0.0082 * fmin(page->width, 1.4 * page->height)), 1.0);
+    plsmaj(0.0, 0.7);
+    plsmin(0.0, 0.7);
+}
+
+/* All of the page, or as much of its height as keeps the words along the axes upright. */
+static cli_panel panel_of(const viewer_page *page) {
+    const double narrowest = 1.25;
+    double share = fmin(1.0, page->width / (narrowest * page->height));
+    return (cli_panel){0.0, 1.0, 0.5 - 0.5 * share, 0.5 + 0.5 * share};
+}
+
+bool viewer_page_draw(const viewer_page *page, cairo_t *cr) {
+    cli_panel panel = panel_of(page);
+    cli_scale scale = cli_figure_scale(page->picture, page->row);
+    cli_look look = {{page->view[0], page->view[1]}, page->steps_max};
+    volatile bool drawn = false;
+    plsexit(leave);
+    if (setjmp(way_out) == 0) {
+        open_page(page, cr);
+        pladv(0);
+        drawn = cli_figure_surface(&panel, page->picture, 0, page->row, scale, &look);
+        plend1();
+    }
+    return drawn;
+}
+
+/* ---- where things are ---- */
+
+typedef struct place {
+    double x, y, depth; /* [px], [px], larger in front */
+} place;
+
+/* As plw3d() and the window of cli_figure_surface() put it. */
+static place place_of(const viewer_page *page, uint32_t i, uint32_t j) {
+    srp_grid grid = page->picture->grid[0];
+    double low, high, x0, x1, y0, y1;
+    cli_figure_axis(cli_figure_scale(page->picture, page->row), &low, &high);
+    double az = page->view[0] * SRP_RAD_PER_DEG, alt = page->view[1] * SRP_RAD_PER_DEG;
+    double x = srp_grid_azimuth_deg(grid, i) / 360.0, y = srp_grid_elevation_deg(grid, j) / 180.0;
+    double value = page->picture->field[0][page->row].value[(size_t)i * grid.el_count + j];
+    double z = (value - low) / (high - low);
+    double across = x * cos(az) - y * sin(az), along = x * sin(az) + y * cos(az);
+    cli_figure_window(page->view, &x0, &x1, &y0, &y1);
+    cli_panel panel = panel_of(page);
+    double up = along * sin(alt) + z * cos(alt);
+    return (place){page->width * (across - x0) / (x1 - x0),
+                   page->height *
+                       (1.0 - panel.bottom - (panel.top - panel.bottom) * (up - y0) / (y1 - y0)),
+                   z * sin(alt) - along * cos(alt)};
+}
+
+bool viewer_page_find(const viewer_page *page, double x, double y, uint32_t *i, uint32_t *j) {
+    const double reach = 14.0;
+    srp_grid grid = page->picture->grid[0];
+    double best = -INFINITY;
+    bool found = false;
+    for (uint32_t a = 0; a < grid.az_count; ++a) {
+        for (uint32_t b = 0; b < grid.el_count; ++b) {
+            place at = place_of(page, a, b);
+            double off = hypot(at.x - x, at.y - y);
+            /* Nearer on the screen counts, and so does being in front. */
+            double merit = at.depth - 0.1 * off;
+            if (off <= reach && merit > best) {
+                best = merit;
+                *i = a;
+                *j = b;
+                found = true;
+            }
+        }
+    }
+    return found;
+}
+
+void viewer_page_place(const viewer_page *page, uint32_t i, uint32_t j, double *x, double *y) {
+    place at = place_of(page, i, j);
+    *x = at.x;
+    *y = at.y;
+}

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "engine.h"
+
+#include "model.h"
+#include "system.h"
+
+#include <srp/plates.h>
+#include <srp/table.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+double viewer_seconds(void) {
+    return cli_system_seconds();
+}
+
+/* ---- shapes ---- */
+
+viewer_shape *viewer_shape_reference(viewer_shape *shape) {
+    if (shape != NULL) {
+        atomic_fetch_add(&shape->references, 1);
+    }
+    return shape;
+}
+
+void viewer_shape_release(viewer_shape *shape) {
+    if (shape != NULL && atomic_fetch_sub(&shape->references, 1) == 1) {
+        cli_info_release(&shape->info);
+        free(shape->path);
+        free(shape->unit);
+        free(shape);
+    }
+}
+
+static bool same_text(const char *a, const char *b) {
+    return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
+}
+
+static viewer_shape *read_shape(const viewer_setup *setup, viewer_words *problem) {
+    viewer_shape *shape = calloc(1, sizeof *shape);
+    if (shape == NULL) {
+        return NULL;
+    }
+    double began = viewer_seconds();
+    atomic_init(&shape->references, 1);
+    shape->path = viewer_text_copy(setup->model);
+    shape->unit = viewer_text_copy(setup->model_option[MODEL_UNIT]);
+    cli_model_options model = cli_model_options_default();
+    if (shape->unit != NULL) {
+        const cli_option *unit = &cli_group_model.options[MODEL_UNIT];
+        unit->set(unit, &model, shape->unit);
+    }
+    const char *const path = shape->path;
+    cli_operands operands = {&path, 1};
+    int status = path != NULL ? cli_info_collect(&model, &operands, &shape->info) : CLI_BAD_INPUT;
+    shape->seconds = viewer_seconds() - began;
+    if (status != CLI_DONE) {
+        if (problem->text[0] == '\0') {
+            viewer_words_add(problem, "no memory");
+        }
+        viewer_shape_release(shape);
+        return NULL;
+    }
+    return shape;
+}
+
+/* ---- optics ---- */
+
+bool viewer_engine_optics(const viewer_engine *engine, size_t index, srp_optics *out) {
+    const info_material *material = &engine->shape->info.materials[index];
+    if (viewer_setup_find_material(engine->setup, material->name, out)) {
+        return true;
+    }
+    if (material->known) {
+        *out = material->optics;
+    }
+    return material->known;
+}
+
+static srp_status join_optics(viewer_engine *engine, srp_error *error) {
+    srp_materials *materials = NULL;
+    srp_status status = srp_materials_create(&materials, error);
+    const cli_info *info = &engine->shape->info;
+    engine->optics_known = true;
+    for (size_t i = 0; i < info->material_count && status == SRP_OK; ++i) {
+        srp_optics optics = {0.0, 0.0, false};
+        if (!viewer_engine_optics(engine, i, &optics)) {
+            engine->optics_known = false;
+            char line[VIEWER_WORDS_SIZE];
+            snprintf(line, sizeof line,
+                     "the material '%.200s' has no optics: give them in Materials",
+                     info->materials[i].name);
+            viewer_words_add(&engine->problem, line);
+        }
+        status = srp_materials_set(materials, info->materials[i].name, optics, false, error);
+    }
+    if (status == SRP_OK) {
+        status = srp_scene_from_mesh(info->mesh, materials, &engine->mesh, error);
+    }
+    srp_materials_destroy(materials);
+    return status;
+}
+
+/* ---- engines ---- */
+
+static srp_status plates_scene(const char *path, srp_scene **out, srp_error *error) {
+    srp_plate *plates = NULL;
+    size_t count;
+    srp_status status = srp_plates_read(path, &plates, &count, error);
+    if (status == SRP_OK) {
+        status = srp_scene_from_plates(plates, count, out, error);
+        srp_plates_free(plates);
+    }
+    return status;
+}
+
+/* The scene that the method takes; NULL with words where there is none. */
+static srp_scene *scene_of_method(viewer_engine *engine) {
+    cli_model_options model;
+    cli_method_options how;
+    srp_scene *scene = NULL;
+    srp_error error;
+    srp_status status = SRP_OK;
+    viewer_setup_options(engine->setup, &model, &how);
+    if ((engine->method->shapes & SRP_SHAPE_MESH) != 0) {
+        return engine->optics_known ? engine->mesh : NULL;
+    }
+    engine->owns_scene = true;
+    if ((engine->method->shapes & SRP_SHAPE_PLATES) != 0) {
+        status = plates_scene(model.plates, &scene, &error);
+    } else {
+        status = srp_scene_from_sphere(how.cr, how.area, &scene, &error);
+    }
+    if (status != SRP_OK) {
+        viewer_words_add_error(&engine->problem, &error);
+        return NULL;
+    }
+    return scene;
+}
+
+static void prepare(viewer_engine *engine) {
+    double began = viewer_seconds();
+    if (!viewer_setup_choose(engine->setup, &engine->method, &engine->params, &engine->problem)) {
+        engine->method = viewer_setup_method(engine->setup);
+        return;
+    }
+    srp_scene *scene = scene_of_method(engine);
+    srp_error error;
+    if (scene != NULL && srp_method_prepare(engine->method, scene, &engine->params,
+                                            &engine->prepared, &error) != SRP_OK) {
+        viewer_words_add_error(&engine->problem, &error);
+        if (engine->owns_scene) {
+            srp_scene_destroy(scene);
+        }
+    }
+    engine->seconds = viewer_seconds() - began;
+}
+
+viewer_engine *viewer_engine_make(const viewer_setup *setup, viewer_shape *known, bool reload) {
+    viewer_engine *engine = calloc(1, sizeof *engine);
+    viewer_setup *copy = viewer_setup_copy(setup);
+    if (engine == NULL || copy == NULL) {
+        free(engine);
+        viewer_setup_destroy(copy);
+        return NULL;
+    }
+    atomic_init(&engine->references, 1);
+    engine->setup = copy;
+    viewer_words_listen(&engine->problem);
+    if (setup->model != NULL && !reload && known != NULL && same_text(known->path, setup->model) &&
+        same_text(known->unit, setup->model_option[MODEL_UNIT])) {
+        engine->shape = viewer_shape_reference(known);
+    } else if (setup->model != NULL) {
+        engine->shape = read_shape(setup, &engine->problem);
+    }
+    srp_error error;
+    if (engine->shape != NULL && join_optics(engine, &error) != SRP_OK) {
+        viewer_words_add_error(&engine->problem, &error);
+        engine->optics_known = false;
+    }
+    viewer_words_listen(NULL);
+    if (engine->shape != NULL || setup->model == NULL) {
+        prepare(engine);
+    }
+    return engine;
+}
+
+viewer_engine *viewer_engine_reference(viewer_engine *engine) {
+    if (engine != NULL) {
+        atomic_fetch_add(&engine->references, 1);
+    }
+    return engine;
+}
+
+void viewer_engine_release(viewer_engine *engine) {
+    if (engine == NULL || atomic_fetch_sub(&engine->references, 1) != 1) {
+        return;
+    }
+    const srp_scene *own = engine->owns_scene && engine->prepared != NULL
+                               ? srp_prepared_scene(engine->prepared)
+                               : NULL;
+    srp_prepared_release(engine->prepared);
+    srp_scene_destroy((srp_scene *)own);
+    srp_scene_destroy(engine->mesh);
+    viewer_shape_release(engine->shape);
+    viewer_setup_destroy(engine->setup);
+    free(engine);
+}
+
+bool viewer_engine_respond(const viewer_engine *engine, double az_deg, double el_deg,
+                           viewer_force *out, viewer_words *problem) {
+    viewer_force force = {.az_deg = az_deg, .el_deg = el_deg};
+    if (engine->prepared == NULL) {
+        viewer_words_add(problem, engine->problem.text);
+        return false;
+    }
+    double began = viewer_seconds();
+    srp_error error;
+    force.s = srp_direction_from_deg(az_deg, el_deg);
+    if (srp_prepared_respond(engine->prepared, 1, &force.s, &force.response, NULL, &error) !=
+        SRP_OK) {
+        viewer_words_add_error(problem, &error);
+        return false;
+    }
+    force.seconds = viewer_seconds() - began;
+    *out = force;
+    return true;
+}

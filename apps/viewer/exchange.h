@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Files that come in and go out, and the dialogs that ask for them. */
+#ifndef SRP_VIEWER_EXCHANGE_H
+#define SRP_VIEWER_EXCHANGE_H
+
+#include "viewer.h"
+
+/* Opens an OBJ file. What was said of the materials of another file is forgotten. */
+void viewer_exchange_open(viewer *v, const char *path);
+/* Reads a table and puts it into the list. */
+void viewer_exchange_open_table(viewer *v, const char *path);
+/* Saves what the tab shows: the ending chooses between a table (.nc, .spo, .txt) and its figure
+ * (.png, .svg, .pdf). */
+void viewer_exchange_save(viewer *v, const char *path);
+
+void viewer_exchange_ask_open(viewer *v);
+void viewer_exchange_ask_plates(viewer *v);
+void viewer_exchange_ask_table(viewer *v);
+void viewer_exchange_ask_save(viewer *v);
+/* Mission 0, or 1, which it is compared with. */
+void viewer_exchange_ask_mission(viewer *v, int which);
+
+/* `srp force ...` for the attitude shown; freed by free(). */
+char *viewer_exchange_force_command(const viewer *v);
+
+#endif

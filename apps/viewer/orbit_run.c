@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "orbit.h"
+#include "track.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of a window. */
+typedef struct keeper {
+    viewer_orbit orbit;
+    atomic_int permille;
+} keeper;
+
+static void free_result(viewer_orbit *orbit) {
+    free(orbit->t);
+    for (int k = 0; k < 4; ++k) {
+        free(orbit->value[k]);
+        orbit->value[k] = NULL;
+    }
+    for (int k = 0; k < 2; ++k) {
+        free(orbit->model[k]);
+        orbit->model[k] = NULL;
+    }
+    orbit->t = NULL;
+    orbit->count = 0;
+}
+
+static void free_keeper(gpointer user) {
+    keeper *k = user;
+    free_result(&k->orbit);
+    free(k->orbit.path[0]);
+    free(k->orbit.path[1]);
+    g_free(k);
+}
+
+static keeper *keeper_of(viewer *v) {
+    keeper *k = g_object_get_data(G_OBJECT(v->application), "orbit");
+    if (k == NULL) {
+        k = g_new0(keeper, 1);
+        g_object_set_data_full(G_OBJECT(v->application), "orbit", k, free_keeper);
+    }
+    return k;
+}
+
+const viewer_orbit *viewer_orbit_get(viewer *v) {
+    return &keeper_of(v)->orbit;
+}
+
+double viewer_orbit_progress(viewer *v) {
+    return 1e-3 * atomic_load(&keeper_of(v)->permille);
+}
+
+bool viewer_orbit_is_running(const viewer *v) {
+    return viewer_worker_is_busy(v->requests.batch, SLOT_ORBIT);
+}
+
+void viewer_orbit_open(viewer *v, int which, const char *path) {
+    viewer_orbit *orbit = &keeper_of(v)->orbit;
+    free(orbit->path[which]);
+    orbit->path[which] = path[0] != '\0' ? viewer_text_copy(path) : NULL;
+    viewer_complain(v, "");
+    viewer_tell(v, CHANGED_ORBIT);
+}
+
+/* ---- the run ---- */
+
+typedef struct orbit_job {
+    viewer_job job;
+    viewer *v;
+    atomic_int *permille;
+    int part, parts;  /* which mission runs, of how many */
+    cli_track *track; /* of that mission */
+    char *path[2];
+    viewer_orbit made;
+    viewer_words problem;
+    bool cancelled;
+} orbit_job;
+
+static srp_status on_row(void *user, const srp_mission *mission, const srp_mission_row *row,
+                         srp_error *error) {
+    orbit_job *job = user;
+    (void)mission;
+    return cli_track_add(job->track, row, error);
+}
+
+static bool on_progress(void *user, double done) {
+    orbit_job *job = user;
+    atomic_store(job->permille, (int)(1e3 * (job->part + done) / job->parts));
+    return !atomic_load(&job->job.cancel);
+}
+
+static bool run_one(orbit_job *job, const srp_mission *mission, cli_track *track,
+                    srp_mission_summary *summary) {
+    const srp_mission_watch watch = {.row = on_row, .progress = on_progress, .user = job};
+    srp_error error;
+    job->track = track;
+    srp_status status = srp_mission_run(mission, &watch, summary, &error);
+    job->cancelled = status == SRP_CANCELLED;
+    if (status != SRP_OK && !job->cancelled) {
+        viewer_words_add_error(&job->problem, &error);
+    }
+    job->made.model[job->part] = viewer_text_copy(srp_mission_get_info(mission)->model);
+    ++job->part;
+    return status == SRP_OK;
+}
+
+/* Turns tracks into what is shown. */
+static bool make_values(orbit_job *job, cli_track track[2]) {
+    viewer_orbit *made = &job->made;
+    made->is_difference = job->parts == 2;
+    made->count = track[0].count;
+    made->t = calloc(made->count + 1, sizeof *made->t);
+    bool good = made->t != NULL;
+    for (int k = 0; k < 4 && good; ++k) {
+        made->value[k] = calloc(made->count + 1, sizeof *made->value[k]);
+        good = made->value[k] != NULL;
+    }
+    for (size_t i = 0; good && i < made->count; ++i) {
+        srp_vec3 d =
+            made->is_difference ? cli_track_difference(&track[0], &track[1], i) : track[0].r[i];
+        made->t[i] = track[0].t[i];
+        made->value[0][i] = d.x;
+        made->value[1][i] = d.y;
+        made->value[2][i] = d.z;
+        made->value[3][i] = srp_vec3_norm(d);
+    }
+    return good;
+}
+
+static void sum_up(viewer_orbit *made, const srp_mission_summary *s) {
+    snprintf(made->summary, sizeof made->summary,
+             "%llu steps, %llu calls of the forces; impulse of sunlight %.6g m/s; %zu penumbras "
+             "(%.1f s), %zu umbras (%.1f s)",
+             (unsigned long long)s->counts.steps, (unsigned long long)s->counts.calls, s->impulse,
+             s->penumbras, s->in_penumbra, s->umbras, s->in_umbra);
+}
+
+static void orbit_run(viewer_job *base) {
+    orbit_job *job = (orbit_job *)base;
+    srp_mission *mission[2] = {NULL, NULL};
+    cli_track track[2] = {{.count = 0}, {.count = 0}};
+    srp_mission_summary summary, other;
+    srp_error error;
+    double began = viewer_seconds();
+    bool good = true;
+    for (int k = 0; k < job->parts && good; ++k) {
+        good = srp_mission_read(job->path[k], NULL, &mission[k], &error) == SRP_OK;
+        if (!good) {
+            viewer_words_add_error(&job->problem, &error);
+        }
+    }
+    viewer_words_listen(&job->problem);
+    good = good && (job->parts == 1 || cli_missions_check_pair(mission[0], mission[1]) == CLI_DONE);
+    viewer_words_listen(NULL);
+    good = good && run_one(job, mission[0], &track[0], &summary);
+    good = good && (job->parts == 1 || run_one(job, mission[1], &track[1], &other));
+    if (good && !make_values(job, track)) {
+        viewer_words_add(&job->problem, "no memory for the rows");
+        good = false;
+    }
+    if (good) {
+        sum_up(&job->made, &summary);
+        job->made.seconds = viewer_seconds() - began;
+    }
+    for (int k = 0; k < 2; ++k) {
+        cli_track_free(&track[k]);
+        srp_mission_destroy(mission[k]);
+    }
+}
+
+static void orbit_deliver(viewer_job *base) {
+    orbit_job *job = (orbit_job *)base;
+    viewer *v = job->v;
+    if (job->cancelled) {
+        viewer_say(v, "The mission was cancelled.");
+    } else if (job->problem.text[0] != '\0') {
+        viewer_complain(v, job->problem.text);
+    } else {
+        viewer_orbit *orbit = &keeper_of(v)->orbit;
+        free_result(orbit);
+        job->made.path[0] = orbit->path[0];
+        job->made.path[1] = orbit->path[1];
+        *orbit = job->made;
+        job->made = (viewer_orbit){.count = 0};
+        char said[64];
+        snprintf(said, sizeof said, "The mission ran in %.2f s.", orbit->seconds);
+        viewer_say(v, said);
+    }
+    viewer_tell(v, CHANGED_ORBIT | CHANGED_BUSY);
+}
+
+static void orbit_release(viewer_job *base) {
+    orbit_job *job = (orbit_job *)base;
+    free_result(&job->made);
+    free(job->path[0]);
+    free(job->path[1]);
+    free(job);
+}
+
+void viewer_orbit_run(viewer *v) {
+    keeper *k = keeper_of(v);
+    if (k->orbit.path[0] == NULL) {
+        viewer_complain(v, "There is no mission yet: open one.");
+        return;
+    }
+    orbit_job *job = g_new0(orbit_job, 1);
+    job->job = (viewer_job){.run = orbit_run, .deliver = orbit_deliver, .release = orbit_release};
+    job->v = v;
+    job->permille = &k->permille;
+    job->parts = k->orbit.path[1] != NULL ? 2 : 1;
+    job->path[0] = viewer_text_copy(k->orbit.path[0]);
+    job->path[1] = viewer_text_copy(k->orbit.path[1]);
+    atomic_store(&k->permille, 0);
+    viewer_worker_cancel(v->requests.batch, SLOT_ORBIT);
+    viewer_worker_submit(v->requests.batch, SLOT_ORBIT, &job->job);
+    viewer_tell(v, CHANGED_ORBIT | CHANGED_BUSY);
+}
+
+void viewer_orbit_cancel(viewer *v) {
+    viewer_worker_cancel(v->requests.batch, SLOT_ORBIT);
+    viewer_tell(v, CHANGED_ORBIT | CHANGED_BUSY);
+}
+
+/* ---- out ---- */
+
+bool viewer_orbit_save(viewer *v, const char *path, viewer_words *problem) {
+    const viewer_orbit *orbit = &keeper_of(v)->orbit;
+    if (orbit->count == 0) {
+        viewer_words_add(problem, "No mission has run yet.");
+        return false;
+    }
+    GString *text =
+        g_string_new(orbit->is_difference ? "elapsed_s,radial_m,along_m,cross_m,distance_m\n"
+                                          : "elapsed_s,x_m,y_m,z_m,distance_m\n");
+    for (size_t i = 0; i < orbit->count; ++i) {
+        g_string_append_printf(text, "%.17g,%.9g,%.9g,%.9g,%.9g\n", orbit->t[i], orbit->value[0][i],
+                               orbit->value[1][i], orbit->value[2][i], orbit->value[3][i]);
+    }
+    GError *error = NULL;
+    bool good = g_file_set_contents(path, text->str, (gssize)text->len, &error);
+    if (!good) {
+        viewer_words_add(problem, error->message);
+        g_error_free(error);
+    }
+    g_string_free(text, TRUE);
+    return good;
+}

@@ -1,0 +1,378 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "requests.h"
+
+#include "numbers.h"
+#include "viewer.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void viewer_requests_begin(viewer *v) {
+    v->requests.live = viewer_worker_create("live", g_main_context_default());
+    v->requests.batch = viewer_worker_create("batch", g_main_context_default());
+}
+
+void viewer_requests_end(viewer *v) {
+    viewer_worker_destroy(v->requests.live);
+    viewer_worker_destroy(v->requests.batch);
+    v->requests.live = v->requests.batch = NULL;
+}
+
+bool viewer_requests_busy(const viewer *v) {
+    bool busy = false;
+    for (unsigned slot = 0; slot < VIEWER_SLOTS; ++slot) {
+        busy = busy || viewer_worker_is_busy(v->requests.live, slot) ||
+               viewer_worker_is_busy(v->requests.batch, slot);
+    }
+    return busy;
+}
+
+/* ---- engine ---- */
+
+typedef struct engine_job {
+    viewer_job job;
+    viewer *v;
+    viewer_setup *setup;
+    viewer_shape *known;
+    bool reload;
+    viewer_engine *made;
+} engine_job;
+
+static void engine_run(viewer_job *base) {
+    engine_job *job = (engine_job *)base;
+    job->made = viewer_engine_make(job->setup, job->known, job->reload);
+}
+
+static void request_probe(viewer *v);
+
+static void engine_deliver(viewer_job *base) {
+    engine_job *job = (engine_job *)base;
+    viewer *v = job->v;
+    if (job->made == NULL) {
+        viewer_complain(v, "no memory for the spacecraft");
+        return;
+    }
+    viewer_session_set_engine(v->session, job->made);
+    const viewer_engine *engine = job->made;
+    job->made = NULL;
+    v->requests.probe.known = false;
+    if (engine->problem.text[0] != '\0') {
+        viewer_complain(v, engine->problem.text);
+    }
+    viewer_tell(v, CHANGED_ENGINE | CHANGED_FORCE | CHANGED_ARROWS | CHANGED_PROBE | CHANGED_BUSY);
+    if (engine->prepared != NULL) {
+        viewer_request_force(v);
+        request_probe(v);
+    }
+}
+
+static void engine_release(viewer_job *base) {
+    engine_job *job = (engine_job *)base;
+    viewer_engine_release(job->made);
+    viewer_shape_release(job->known);
+    viewer_setup_destroy(job->setup);
+    free(job);
+}
+
+void viewer_request_engine(viewer *v, bool reload) {
+    engine_job *job = g_new0(engine_job, 1);
+    job->job =
+        (viewer_job){.run = engine_run, .deliver = engine_deliver, .release = engine_release};
+    job->v = v;
+    job->setup = viewer_setup_copy(v->session->setup);
+    job->reload = reload;
+    if (v->session->engine != NULL) {
+        job->known = viewer_shape_reference(v->session->engine->shape);
+    }
+    if (job->setup == NULL) {
+        engine_release(&job->job);
+        viewer_complain(v, "no memory for the spacecraft");
+        return;
+    }
+    viewer_worker_cancel(v->requests.live, SLOT_FORCE);
+    viewer_worker_submit(v->requests.live, SLOT_ENGINE, &job->job);
+    viewer_tell(v, CHANGED_BUSY);
+}
+
+/* ---- force ---- */
+
+typedef struct force_job {
+    viewer_job job;
+    viewer *v;
+    viewer_engine *engine;
+    double az_deg, el_deg, asked_at;
+    bool good;
+    viewer_force force;
+    viewer_words problem;
+} force_job;
+
+static void force_run(viewer_job *base) {
+    force_job *job = (force_job *)base;
+    job->good =
+        viewer_engine_respond(job->engine, job->az_deg, job->el_deg, &job->force, &job->problem);
+}
+
+static void force_deliver(viewer_job *base) {
+    force_job *job = (force_job *)base;
+    viewer *v = job->v;
+    if (job->engine != v->session->engine) {
+        return; /* of a method that was */
+    }
+    if (!job->good) {
+        viewer_complain(v, job->problem.text);
+        return;
+    }
+    if (!viewer_session_set_force(v->session, &job->force)) {
+        viewer_complain(v, "no memory for the arrow");
+    }
+    v->asked_at = job->asked_at;
+    viewer_tell(v, CHANGED_FORCE | (v->session->recording ? CHANGED_ARROWS : 0));
+}
+
+static void force_release(viewer_job *base) {
+    force_job *job = (force_job *)base;
+    viewer_engine_release(job->engine);
+    free(job);
+}
+
+void viewer_request_force(viewer *v) {
+    viewer_engine *engine = v->session->engine;
+    if (engine == NULL || engine->prepared == NULL ||
+        viewer_worker_is_busy(v->requests.live, SLOT_ENGINE)) {
+        return; /* asked for when the engine is there */
+    }
+    force_job *job = g_new0(force_job, 1);
+    job->job = (viewer_job){.run = force_run, .deliver = force_deliver, .release = force_release};
+    job->v = v;
+    job->engine = viewer_engine_reference(engine);
+    job->asked_at = viewer_seconds();
+    viewer_attitude_sun(&v->session->attitude, &job->az_deg, &job->el_deg);
+    viewer_worker_submit(v->requests.live, SLOT_FORCE, &job->job);
+}
+
+/* ---- probe ---- */
+
+enum { PROBE_DIRECTIONS = 12 };
+static const double PROBE_SECONDS = 0.6;
+
+typedef struct probe_job {
+    viewer_job job;
+    viewer *v;
+    viewer_engine *engine;
+    viewer_probe found;
+} probe_job;
+
+static int by_size(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The method exact on the same mesh, where it tells how far off the probed method is: not for
+ * itself, and not for light that is followed further than it does. */
+static srp_prepared *truth_of(const viewer_engine *engine) {
+    const srp_method *method = engine->method;
+    srp_prepared *truth = NULL;
+    srp_error error;
+    if (engine->mesh == NULL || !engine->optics_known || method == &srp_method_exact ||
+        (method->capabilities & SRP_METHOD_BOUNCE) != 0 ||
+        srp_method_prepare(&srp_method_exact, engine->mesh, &engine->params, &truth, &error) !=
+            SRP_OK) {
+        return NULL;
+    }
+    return truth;
+}
+
+static double error_of(const viewer_force *force, const srp_prepared *truth) {
+    const srp_response *r = &force->response;
+    srp_response exact;
+    if (truth == NULL) {
+        return r->f_error / srp_vec3_norm(r->f);
+    }
+    if (srp_prepared_respond(truth, 1, &force->s, &exact, NULL, NULL) != SRP_OK) {
+        return NAN;
+    }
+    return srp_vec3_norm(srp_vec3_sub(r->f, exact.f)) / srp_vec3_norm(exact.f);
+}
+
+static void probe_run(viewer_job *base) {
+    probe_job *job = (probe_job *)base;
+    double seconds[PROBE_DIRECTIONS], began = viewer_seconds(), worst = 0.0;
+    size_t n = 0;
+    viewer_words problem = {""};
+    srp_prepared *truth = truth_of(job->engine);
+    while (n < PROBE_DIRECTIONS && !atomic_load(&job->job.cancel) &&
+           (n == 0 || viewer_seconds() - began < PROBE_SECONDS)) {
+        /* Off the axes, where every spacecraft shows several of its sides. */
+        double az = -163.7 + 137.508 * (double)n;
+        double el = 61.3 - 10.9 * (double)n;
+        viewer_force force;
+        if (!viewer_engine_respond(job->engine, fmod(az, 360.0), el, &force, &problem)) {
+            break;
+        }
+        seconds[n++] = force.seconds;
+        worst = fmax(worst, error_of(&force, truth));
+    }
+    srp_prepared_release(truth);
+    if (n > 0) {
+        qsort(seconds, n, sizeof *seconds, by_size);
+        bool from_plates = truth == NULL && (job->engine->method->shapes & SRP_SHAPE_MESH) == 0;
+        job->found =
+            (viewer_probe){true, n, seconds[n / 2], from_plates ? NAN : worst, truth != NULL};
+    }
+}
+
+static void probe_deliver(viewer_job *base) {
+    probe_job *job = (probe_job *)base;
+    if (job->engine == job->v->session->engine && job->found.known) {
+        job->v->requests.probe = job->found;
+        viewer_tell(job->v, CHANGED_PROBE);
+    }
+}
+
+static void probe_release(viewer_job *base) {
+    probe_job *job = (probe_job *)base;
+    viewer_engine_release(job->engine);
+    free(job);
+}
+
+static void request_probe(viewer *v) {
+    probe_job *job = g_new0(probe_job, 1);
+    job->job = (viewer_job){.run = probe_run, .deliver = probe_deliver, .release = probe_release};
+    job->v = v;
+    job->engine = viewer_engine_reference(v->session->engine);
+    viewer_worker_cancel(v->requests.batch, SLOT_PROBE);
+    viewer_worker_submit(v->requests.batch, SLOT_PROBE, &job->job);
+}
+
+/* ---- tables ---- */
+
+typedef struct table_job {
+    viewer_job job;
+    viewer *v;
+    viewer_engine *engine;
+    srp_grid grid;
+    char *title, *command;
+    srp_table *table;
+    srp_status status;
+    srp_error error;
+} table_job;
+
+static bool report(void *user, const srp_table *table, size_t done, size_t total) {
+    table_job *job = user;
+    (void)table;
+    atomic_store(&job->v->requests.table.done, done);
+    atomic_store(&job->v->requests.table.total, total);
+    return !atomic_load(&job->job.cancel);
+}
+
+static void table_run(viewer_job *base) {
+    table_job *job = (table_job *)base;
+    const viewer_engine *engine = job->engine;
+    const srp_table_progress progress = {report, job};
+    bool basis = (engine->method->capabilities & SRP_METHOD_BASIS) != 0;
+    job->status = srp_table_create(engine->prepared, job->grid, basis, &job->table, &job->error);
+    if (job->status == SRP_OK) {
+        job->status = srp_table_describe(job->table, job->title, job->command, engine->setup->light,
+                                         engine->setup->mass, &job->error);
+    }
+    if (job->status == SRP_OK) {
+        job->status = srp_table_fill(job->table, engine->prepared, &progress, &job->error);
+    }
+}
+
+static void table_deliver(viewer_job *base) {
+    table_job *job = (table_job *)base;
+    viewer *v = job->v;
+    if (job->status == SRP_CANCELLED) {
+        viewer_say(v, "The table was cancelled.");
+    } else if (job->status != SRP_OK) {
+        viewer_complain(v, job->error.message);
+    } else {
+        char name[256];
+        snprintf(name, sizeof name, "%zu: %.100s, %s, %g° × %g°", v->session->table_count + 1,
+                 job->title, job->engine->method->name, 360.0 / (job->grid.az_count - 1),
+                 180.0 / (job->grid.el_count - 1));
+        viewer_table table = {job->table, viewer_text_copy(name), job->command, NULL};
+        job->table = NULL;
+        job->command = NULL;
+        if (viewer_session_add_table(v->session, table)) {
+            v->table_shown = (int)v->session->table_count - 1;
+        }
+        char said[300];
+        snprintf(said, sizeof said, "Table %s: computed in %.2f s.", name,
+                 viewer_seconds() - v->requests.table.began);
+        viewer_say(v, said);
+    }
+    viewer_tell(v, CHANGED_TABLES | CHANGED_BUSY);
+}
+
+static void table_release(viewer_job *base) {
+    table_job *job = (table_job *)base;
+    srp_table_destroy(job->table);
+    viewer_engine_release(job->engine);
+    free(job->title);
+    free(job->command);
+    free(job);
+}
+
+/* What the title of a table is by default: names without directories. */
+static char *title_of(const viewer_setup *setup, const srp_method *method) {
+    const char *path = (method->shapes & SRP_SHAPE_MESH) != 0 ? setup->model
+                       : (method->shapes & SRP_SHAPE_PLATES) != 0
+                           ? setup->model_option[MODEL_PLATES]
+                           : NULL;
+    if (path == NULL) {
+        return viewer_text_copy(method->name);
+    }
+    char *base = g_path_get_basename(path);
+    char *title = g_utf8_make_valid(base, -1);
+    char *copy = viewer_text_copy(title);
+    g_free(base);
+    g_free(title);
+    return copy;
+}
+
+static char *command_of(const viewer *v) {
+    char az[CLI_NUMBER_SIZE], el[CLI_NUMBER_SIZE];
+    char output[] = "-o", file[] = "table.nc", az_step[] = "--az-step", el_step[] = "--el-step";
+    cli_write_number(v->az_step_deg, az);
+    cli_write_number(v->el_step_deg, el);
+    char *const extra[] = {az_step, az, el_step, el, output, file};
+    return viewer_setup_command(v->session->engine->setup, "table", extra, 6);
+}
+
+void viewer_request_table(viewer *v) {
+    viewer_engine *engine = v->session->engine;
+    srp_grid grid;
+    srp_error error;
+    if (engine == NULL || engine->prepared == NULL) {
+        viewer_complain(v, engine != NULL && engine->problem.text[0] != '\0'
+                               ? engine->problem.text
+                               : "There is no spacecraft yet: open one.");
+        return;
+    }
+    if (srp_grid_from_steps(v->az_step_deg, v->el_step_deg, &grid, &error) != SRP_OK) {
+        viewer_complain(v, error.message);
+        return;
+    }
+    table_job *job = g_new0(table_job, 1);
+    job->job = (viewer_job){.run = table_run, .deliver = table_deliver, .release = table_release};
+    job->v = v;
+    job->engine = viewer_engine_reference(engine);
+    job->grid = grid;
+    job->title = title_of(engine->setup, engine->method);
+    job->command = command_of(v);
+    atomic_store(&v->requests.table.done, 0);
+    atomic_store(&v->requests.table.total, 0);
+    v->requests.table.began = viewer_seconds();
+    viewer_worker_cancel(v->requests.batch, SLOT_TABLE);
+    viewer_worker_submit(v->requests.batch, SLOT_TABLE, &job->job);
+    viewer_tell(v, CHANGED_BUSY);
+}
+
+void viewer_cancel_table(viewer *v) {
+    viewer_worker_cancel(v->requests.batch, SLOT_TABLE);
+    viewer_tell(v, CHANGED_BUSY);
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What is computed beside the window: engines and forces at once, tables and what else takes long
+ * on a second thread. */
+#ifndef SRP_VIEWER_REQUESTS_H
+#define SRP_VIEWER_REQUESTS_H
+
+#include "worker.h"
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct viewer viewer;
+
+/* What a quick look at the method found, on this machine and this model. */
+typedef struct viewer_probe {
+    bool known;
+    size_t directions;
+    double seconds;     /* for one direction, median */
+    double error;       /* relative, of |f|: the largest that was seen; NAN: not known */
+    bool against_exact; /* the error is the distance from the method exact, not the method's own */
+} viewer_probe;
+
+/* How far a table is, written by the thread that computes it. */
+typedef struct viewer_progress {
+    atomic_size_t done, total;
+    double began; /* the main thread's */
+} viewer_progress;
+
+enum { SLOT_ENGINE, SLOT_FORCE };                      /* of `live` */
+enum { SLOT_TABLE, SLOT_ORBIT, SLOT_FIT, SLOT_PROBE }; /* of `batch` */
+
+typedef struct viewer_requests {
+    viewer_worker *live, *batch;
+    viewer_progress table;
+    viewer_probe probe;
+} viewer_requests;
+
+void viewer_requests_begin(viewer *v);
+/* Cancels and joins. */
+void viewer_requests_end(viewer *v);
+/* Is anything computed, or about to be shown? */
+bool viewer_requests_busy(const viewer *v);
+
+/* The setup has changed: a new engine, then the force. `reload` reads files again. */
+void viewer_request_engine(viewer *v, bool reload);
+/* The Sun has moved. */
+void viewer_request_force(viewer *v);
+/* A table of the engine, with the steps of the viewer. */
+void viewer_request_table(viewer *v);
+void viewer_cancel_table(viewer *v);
+
+#endif

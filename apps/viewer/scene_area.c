@@ -1,0 +1,359 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "scene_area.h"
+
+#include "palette.h"
+#include "scene_look.h"
+#include "ui.h"
+
+#include <gmodule.h>
+#include <math.h>
+#include <stdio.h>
+
+typedef struct area {
+    viewer *v;
+    GtkWidget *gl, *marks, *trouble, *legend;
+    GModule *library;
+    srp_renderer *renderer;
+    viewer_engine *drawn; /* whose mesh the renderer has */
+    viewer_look look;
+    double drag_az, drag_el;
+} area;
+
+/* ---- OpenGL ---- */
+
+/* The dispatcher of functions that both GLX and EGL contexts understand. */
+static srp_render_function find_function(void *user, const char *name) {
+    area *a = user;
+    static const char *const finders[] = {"eglGetProcAddress", "glXGetProcAddressARB"};
+    for (size_t i = 0; a->library != NULL && i < G_N_ELEMENTS(finders); ++i) {
+        union {
+            gpointer pointer;
+            srp_render_function (*finder)(const char *);
+        } symbol = {NULL};
+        if (g_module_symbol(a->library, finders[i], &symbol.pointer) && symbol.pointer != NULL) {
+            return symbol.finder(name);
+        }
+    }
+    return NULL;
+}
+
+static void show_trouble(area *a, const char *text) {
+    gtk_label_set_text(GTK_LABEL(a->trouble), text);
+    gtk_widget_set_visible(a->trouble, text[0] != '\0');
+}
+
+static void on_realize(GtkGLArea *gl, gpointer user) {
+    area *a = user;
+    srp_error error;
+    gtk_gl_area_make_current(gl);
+    GError *problem = gtk_gl_area_get_error(gl);
+    if (problem != NULL) {
+        char *text =
+            g_strdup_printf("No picture: %s\nAll numbers are there without it.", problem->message);
+        show_trouble(a, text);
+        g_free(text);
+        return;
+    }
+    static const char *const libraries[] = {"libEGL.so.1", "libGL.so.1"};
+    for (size_t i = 0; a->library == NULL && i < G_N_ELEMENTS(libraries); ++i) {
+        a->library = g_module_open(libraries[i], G_MODULE_BIND_LAZY);
+    }
+    if (srp_renderer_create(find_function, a, &a->renderer, &error) != SRP_OK) {
+        char *text =
+            g_strdup_printf("No picture: %s\nAll numbers are there without it.", error.message);
+        show_trouble(a, text);
+        g_free(text);
+        a->renderer = NULL;
+    }
+}
+
+static void on_unrealize(GtkGLArea *gl, gpointer user) {
+    area *a = user;
+    gtk_gl_area_make_current(gl);
+    if (gtk_gl_area_get_error(gl) == NULL) {
+        srp_renderer_destroy(a->renderer);
+    }
+    a->renderer = NULL;
+    g_clear_pointer(&a->drawn, viewer_engine_release);
+}
+
+/* Gives the renderer the mesh of the newest engine. */
+static bool bring_scene(area *a) {
+    viewer_engine *engine = a->v->session->engine;
+    const srp_scene *scene = engine != NULL ? engine->mesh : NULL;
+    srp_error error;
+    if (engine == a->drawn) {
+        return scene != NULL;
+    }
+    if (srp_renderer_set_scene(a->renderer, scene, &error) != SRP_OK) {
+        show_trouble(a, error.message);
+        return false;
+    }
+    viewer_engine_release(a->drawn);
+    a->drawn = viewer_engine_reference(engine);
+    return scene != NULL;
+}
+
+static srp_render_colour background(void) {
+    gboolean dark = FALSE;
+    g_object_get(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", &dark, NULL);
+    return dark ? (srp_render_colour){0.13f, 0.13f, 0.15f}
+                : (srp_render_colour){0.97f, 0.97f, 0.98f};
+}
+
+static void draw_scene(area *a) {
+    viewer *v = a->v;
+    srp_error error;
+    int scale = gtk_widget_get_scale_factor(a->gl);
+    int width = scale * gtk_widget_get_width(a->gl), height = scale * gtk_widget_get_height(a->gl);
+    if (width <= 0 || height <= 0) {
+        return;
+    }
+    viewer_look_make(v->session, v->camera.az_deg, v->camera.el_deg, v->camera.zoom, width, height,
+                     &a->look);
+    srp_render_view *view = &a->look.view;
+    view->shadows = view->shadows && v->shadows;
+    view->colouring = v->colouring == COLOUR_INCIDENCE ? SRP_RENDER_INCIDENCE
+                      : v->colouring == COLOUR_FORCE   ? SRP_RENDER_FORCE
+                                                       : SRP_RENDER_MATERIAL;
+    view->value_low = 0.0;
+    view->value_high = v->colouring == COLOUR_FORCE ? 2.0 : 1.0;
+    view->background = background();
+    if (srp_renderer_draw(a->renderer, view, &error) != SRP_OK) {
+        show_trouble(a, error.message);
+    }
+}
+
+/* Nothing but the ground, where there is no spacecraft. */
+static void draw_nothing(area *a) {
+    srp_render_view view = srp_render_view_default();
+    srp_error error;
+    int scale = gtk_widget_get_scale_factor(a->gl);
+    view.width = scale * gtk_widget_get_width(a->gl);
+    view.height = scale * gtk_widget_get_height(a->gl);
+    view.background = background();
+    if (srp_renderer_draw(a->renderer, &view, &error) != SRP_OK) {
+        show_trouble(a, error.message);
+    }
+}
+
+static gboolean on_render(GtkGLArea *gl, GdkGLContext *context, gpointer user) {
+    area *a = user;
+    (void)gl, (void)context;
+    if (a->renderer != NULL) {
+        bring_scene(a) ? draw_scene(a) : draw_nothing(a);
+    }
+    if (!isnan(a->v->asked_at)) {
+        viewer_session_add_latency(a->v->session, viewer_seconds() - a->v->asked_at);
+        a->v->asked_at = NAN;
+    }
+    a->v->picture_is_old = false;
+    gtk_widget_queue_draw(a->marks);
+    return TRUE;
+}
+
+/* ---- words and legend over the picture ---- */
+
+static void put_word(area *a, cairo_t *cr, srp_vec3 at, const char *word, const double rgb[3]) {
+    double x, y;
+    int scale = gtk_widget_get_scale_factor(a->gl);
+    if (!srp_render_project(&a->look.view.camera, a->look.view.width, a->look.view.height, at, &x,
+                            &y)) {
+        return;
+    }
+    cairo_set_source_rgb(cr, rgb[0], rgb[1], rgb[2]);
+    cairo_move_to(cr, x / scale - 4.0, y / scale + 4.0);
+    cairo_show_text(cr, word);
+}
+
+static void draw_axes_words(area *a, cairo_t *cr) {
+    static const double red[3] = {0.8, 0.1, 0.1}, green[3] = {0.1, 0.55, 0.15},
+                        blue[3] = {0.15, 0.3, 0.85}, gold[3] = {0.75, 0.55, 0.0};
+    double axes = 1.07 * a->look.view.axes;
+    cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
+    cairo_set_font_size(cr, 13.0);
+    put_word(a, cr, srp_vec3_make(axes, 0.0, 0.0), "X", red);
+    put_word(a, cr, srp_vec3_make(0.0, axes, 0.0), "Y", green);
+    put_word(a, cr, srp_vec3_make(0.0, 0.0, axes), "Z", blue);
+    srp_vec3 sun = srp_vec3_add_scaled(a->look.view.camera.target, 1.05 * a->look.view.sun_line,
+                                       a->look.view.sun);
+    put_word(a, cr, sun, "Sun", gold);
+}
+
+/* A bar of colours with numbers below its ends. */
+static void draw_bar(GtkWidget *widget, cairo_t *cr, double y, const char *title, const char *low,
+                     const char *high, void (*colour)(double share, float rgb[3])) {
+    GdkRGBA ink;
+    gtk_style_context_get_color(gtk_widget_get_style_context(widget), &ink);
+    const double x = 14.0, width = 180.0;
+    cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cr, 11.5);
+    gdk_cairo_set_source_rgba(cr, &ink);
+    cairo_move_to(cr, x, y - 5.0);
+    cairo_show_text(cr, title);
+    for (int k = 0; k < 90; ++k) {
+        float rgb[3];
+        colour((k + 0.5) / 90.0, rgb);
+        cairo_set_source_rgb(cr, (double)rgb[0], (double)rgb[1], (double)rgb[2]);
+        cairo_rectangle(cr, x + 2.0 * k, y, 2.5, 10.0);
+        cairo_fill(cr);
+    }
+    cairo_text_extents_t size;
+    gdk_cairo_set_source_rgba(cr, &ink);
+    cairo_move_to(cr, x, y + 23.0);
+    cairo_show_text(cr, low);
+    cairo_text_extents(cr, high, &size);
+    cairo_move_to(cr, x + width - size.x_advance, y + 23.0);
+    cairo_show_text(cr, high);
+}
+
+static void map_colour(double share, float rgb[3]) {
+    cli_palette palette;
+    cli_palette_sequential(&palette);
+    int k = (int)(share * (CLI_PALETTE_SIZE - 1));
+    for (int c = 0; c < 3; ++c) {
+        rgb[c] = (float)palette.rgb[k][c];
+    }
+}
+
+static void draw_material_names(area *a, GtkWidget *widget, cairo_t *cr, int height) {
+    const srp_scene *scene = a->drawn->mesh;
+    GdkRGBA ink;
+    gtk_style_context_get_color(gtk_widget_get_style_context(widget), &ink);
+    size_t count = srp_scene_material_count(scene), most = (size_t)MAX(0, (height - 90) / 18);
+    cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cr, 11.5);
+    for (size_t i = 0; i < count && i < most; ++i) {
+        srp_render_colour colour = srp_render_material_colour(i);
+        double y = 14.0 + 18.0 * (double)i;
+        cairo_set_source_rgb(cr, (double)colour.r, (double)colour.g, (double)colour.b);
+        cairo_rectangle(cr, 14.0, y, 12.0, 12.0);
+        cairo_fill(cr);
+        gdk_cairo_set_source_rgba(cr, &ink);
+        cairo_move_to(cr, 32.0, y + 10.5);
+        const char *name = srp_scene_material_name(scene, i);
+        cairo_show_text(cr, i + 1 == most && i + 1 < count ? "…"
+                            : name[0] != '\0'              ? name
+                                                           : "(no name)");
+    }
+}
+
+static void draw_marks(GtkDrawingArea *widget, cairo_t *cr, int width, int height, gpointer user) {
+    area *a = user;
+    double least, largest;
+    (void)width;
+    if (a->drawn == NULL || a->drawn->mesh == NULL) {
+        return;
+    }
+    draw_axes_words(a, cr);
+    if (a->v->colouring == COLOUR_MATERIAL) {
+        draw_material_names(a, GTK_WIDGET(widget), cr, height);
+    } else {
+        draw_bar(GTK_WIDGET(widget), cr, 24.0,
+                 a->v->colouring == COLOUR_FORCE ? "force per lit area and pressure"
+                                                 : "cosine of the incidence",
+                 "0", a->v->colouring == COLOUR_FORCE ? "2" : "1", map_colour);
+    }
+    if (viewer_session_arrow_range(a->v->session, &least, &largest)) {
+        char low[32], high[32];
+        snprintf(low, sizeof low, "%.4g", least);
+        snprintf(high, sizeof high, "%.4g m²", largest);
+        draw_bar(GTK_WIDGET(widget), cr, height - 36.0, "|f| of the arrows", low, high,
+                 viewer_arrow_colour);
+    }
+}
+
+/* ---- mouse ---- */
+
+static void on_drag_begin(GtkGestureDrag *drag, double x, double y, gpointer user) {
+    area *a = user;
+    (void)drag, (void)x, (void)y;
+    a->drag_az = a->v->camera.az_deg;
+    a->drag_el = a->v->camera.el_deg;
+}
+
+static void on_drag(GtkGestureDrag *drag, double dx, double dy, gpointer user) {
+    area *a = user;
+    (void)drag;
+    a->v->camera.az_deg = fmod(a->drag_az - 0.4 * dx, 360.0);
+    a->v->camera.el_deg = fmax(-90.0, fmin(90.0, a->drag_el + 0.4 * dy));
+    viewer_tell(a->v, CHANGED_VIEW);
+}
+
+static gboolean on_scroll(GtkEventControllerScroll *scroll, double dx, double dy, gpointer user) {
+    area *a = user;
+    (void)scroll, (void)dx;
+    a->v->camera.zoom = fmax(0.05, fmin(50.0, a->v->camera.zoom * pow(1.12, -dy)));
+    viewer_tell(a->v, CHANGED_VIEW);
+    return TRUE;
+}
+
+/* ---- together ---- */
+
+static void on_changed(void *user, unsigned what) {
+    area *a = user;
+    if ((what & (CHANGED_ENGINE | CHANGED_SUN | CHANGED_FORCE | CHANGED_ARROWS | CHANGED_VIEW)) ==
+        0) {
+        return;
+    }
+    if (gtk_widget_get_mapped(a->gl) && a->renderer != NULL) {
+        a->v->picture_is_old = true;
+        gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
+    } else {
+        a->v->asked_at = NAN;
+    }
+}
+
+static void on_unmap(GtkWidget *widget, gpointer user) {
+    area *a = user;
+    (void)widget;
+    a->v->picture_is_old = false;
+}
+
+static void free_area(gpointer user) {
+    area *a = user;
+    viewer_engine_release(a->drawn);
+    if (a->library != NULL) {
+        g_module_close(a->library);
+    }
+    g_free(a);
+}
+
+GtkWidget *viewer_scene_area(viewer *v) {
+    area *a = g_new0(area, 1);
+    a->v = v;
+    a->gl = gtk_gl_area_new();
+    gtk_gl_area_set_required_version(GTK_GL_AREA(a->gl), 3, 3);
+    gtk_gl_area_set_auto_render(GTK_GL_AREA(a->gl), FALSE);
+    gtk_widget_set_name(a->gl, "scene");
+    gtk_widget_set_focusable(a->gl, TRUE);
+    gtk_widget_set_size_request(a->gl, 320, 220);
+    g_signal_connect(a->gl, "realize", G_CALLBACK(on_realize), a);
+    g_signal_connect(a->gl, "unrealize", G_CALLBACK(on_unrealize), a);
+    g_signal_connect(a->gl, "render", G_CALLBACK(on_render), a);
+    g_signal_connect(a->gl, "unmap", G_CALLBACK(on_unmap), a);
+    GtkGesture *drag = gtk_gesture_drag_new();
+    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_drag_begin), a);
+    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag), a);
+    gtk_widget_add_controller(a->gl, GTK_EVENT_CONTROLLER(drag));
+    GtkEventController *scroll =
+        gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
+    g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), a);
+    gtk_widget_add_controller(a->gl, scroll);
+    a->marks = gtk_drawing_area_new();
+    gtk_widget_set_can_target(a->marks, FALSE);
+    gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(a->marks), draw_marks, a, NULL);
+    a->trouble = ui_label("", "dim");
+    gtk_widget_set_name(a->trouble, "trouble");
+    gtk_label_set_wrap(GTK_LABEL(a->trouble), TRUE);
+    gtk_label_set_justify(GTK_LABEL(a->trouble), GTK_JUSTIFY_CENTER);
+    gtk_widget_set_halign(a->trouble, GTK_ALIGN_CENTER);
+    gtk_widget_set_visible(a->trouble, FALSE);
+    GtkWidget *overlay = gtk_overlay_new();
+    gtk_overlay_set_child(GTK_OVERLAY(overlay), a->gl);
+    gtk_overlay_add_overlay(GTK_OVERLAY(overlay), a->marks);
+    gtk_overlay_add_overlay(GTK_OVERLAY(overlay), a->trouble);
+    g_object_set_data_full(G_OBJECT(overlay), "area", a, free_area);
+    viewer_listen(v, on_changed, a);
+    return overlay;
+}

@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef SRP_VIEWER_SCREENSHOT_H
+#define SRP_VIEWER_SCREENSHOT_H
+
+#include "viewer.h"
+
+/* Draws the window into a PNG file; complains when that fails. */
+bool viewer_screenshot(viewer *v, const char *path);
+
+#endif

@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "script.h"
+
+#include "actions.h"
+#include "screenshot.h"
+#include "ui.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct script {
+    viewer *v;
+    char *name, *text;
+    char **lines;
+    size_t at;
+    double resume_at; /* [s] */
+    bool waits;
+    bool quiet; /* nothing is computed any more, since frame `quiet_at` */
+    gint64 quiet_at;
+    const char *shot; /* picture to take when all is shown; NULL: none */
+} script;
+
+enum { TICK_MS = 4, QUIET_FRAMES = 3 };
+
+static void script_free(gpointer user) {
+    script *s = user;
+    g_strfreev(s->lines);
+    g_free(s->name);
+    g_free(s->text);
+    g_free(s);
+}
+
+static gboolean fail(script *s, const char *what) {
+    g_printerr("%s:%zu: %s\n", s->name, s->at, what);
+    s->v->exit_status = 1;
+    return FALSE;
+}
+
+/* ---- texts of widgets ---- */
+
+static char *text_of(GtkWidget *widget) {
+    if (GTK_IS_LABEL(widget)) {
+        return g_strdup(gtk_label_get_text(GTK_LABEL(widget)));
+    }
+    if (GTK_IS_EDITABLE(widget)) {
+        return g_strdup(gtk_editable_get_text(GTK_EDITABLE(widget)));
+    }
+    if (GTK_IS_BUTTON(widget)) {
+        return g_strdup(gtk_button_get_label(GTK_BUTTON(widget)));
+    }
+    if (GTK_IS_MENU_BUTTON(widget)) {
+        return g_strdup(gtk_menu_button_get_label(GTK_MENU_BUTTON(widget)));
+    }
+    if (GTK_IS_RANGE(widget)) {
+        return g_strdup_printf("%g", gtk_range_get_value(GTK_RANGE(widget)));
+    }
+    if (GTK_IS_PROGRESS_BAR(widget)) {
+        return g_strdup(gtk_progress_bar_get_text(GTK_PROGRESS_BAR(widget)));
+    }
+    if (GTK_IS_DROP_DOWN(widget)) {
+        GObject *item = gtk_drop_down_get_selected_item(GTK_DROP_DOWN(widget));
+        return g_strdup(item != NULL ? gtk_string_object_get_string(GTK_STRING_OBJECT(item)) : "");
+    }
+    return g_strdup("");
+}
+
+/* Splits "WIDGET TEXT"; the text may be missing. */
+static GtkWidget *find_widget(script *s, char *words, char **text) {
+    *text = strchr(words, ' ');
+    if (*text != NULL) {
+        *(*text)++ = '\0';
+    }
+    GtkWidget *widget = ui_find(s->v, words);
+    if (widget == NULL) {
+        char *said = g_strdup_printf("there is no widget '%s'", words);
+        fail(s, said);
+        g_free(said);
+    }
+    return widget;
+}
+
+static gboolean print_text(script *s, char *words) {
+    char *rest, *text;
+    GtkWidget *widget = find_widget(s, words, &rest);
+    if (widget == NULL) {
+        return FALSE;
+    }
+    text = text_of(widget);
+    g_print("%s: %s\n", words, text != NULL ? text : "");
+    g_free(text);
+    return TRUE;
+}
+
+static gboolean expect_text(script *s, char *words) {
+    char *wanted, *text;
+    GtkWidget *widget = find_widget(s, words, &wanted);
+    if (widget == NULL) {
+        return FALSE;
+    }
+    text = text_of(widget);
+    gboolean good = text != NULL && strstr(text, wanted != NULL ? wanted : "") != NULL;
+    if (!good) {
+        char *said = g_strdup_printf("%s says '%s', expected '%s'", words, text != NULL ? text : "",
+                                     wanted != NULL ? wanted : "");
+        fail(s, said);
+        g_free(said);
+    }
+    g_free(text);
+    return good;
+}
+
+static gboolean enter_text(script *s, char *words) {
+    char *text;
+    GtkWidget *widget = find_widget(s, words, &text);
+    if (widget == NULL || !GTK_IS_ENTRY(widget)) {
+        return widget == NULL ? FALSE : fail(s, "expected an entry");
+    }
+    gtk_editable_set_text(GTK_EDITABLE(widget), text != NULL ? text : "");
+    g_signal_emit_by_name(widget, "activate");
+    return TRUE;
+}
+
+/* ---- steps ---- */
+
+static gboolean activate(script *s, const char *name, const char *rest) {
+    size_t count;
+    const viewer_action *actions = viewer_action_list(&count);
+    for (size_t i = 0; i < count; ++i) {
+        if (strcmp(actions[i].name, name) != 0) {
+            continue;
+        }
+        const char *type = actions[i].type;
+        GVariant *parameter = NULL;
+        if (type != NULL && strcmp(type, "s") == 0) {
+            parameter = g_variant_new_string(rest);
+        } else if (type != NULL && strcmp(type, "i") == 0) {
+            parameter = g_variant_new_int32((gint32)strtol(rest, NULL, 10));
+        } else if (type != NULL) {
+            parameter = g_variant_new_double(g_ascii_strtod(rest, NULL));
+        }
+        viewer_act(s->v, name, parameter);
+        return TRUE;
+    }
+    char *said = g_strdup_printf("unknown step '%s'", name);
+    fail(s, said);
+    g_free(said);
+    return FALSE;
+}
+
+static gboolean resize(script *s, const char *rest) {
+    int width = 0, height = 0;
+    char *end;
+    width = (int)strtol(rest, &end, 10);
+    height = (int)strtol(end, NULL, 10);
+    if (width < 100 || height < 100) {
+        return fail(s, "expected resize WIDTH HEIGHT");
+    }
+    gtk_window_set_default_size(s->v->window, width, height);
+    return TRUE;
+}
+
+static gboolean step(script *s, char *line) {
+    g_strstrip(line);
+    char *rest = line + strcspn(line, " ");
+    if (*rest != '\0') {
+        *rest++ = '\0';
+    }
+    if (line[0] == '\0' || line[0] == '#') {
+        return TRUE;
+    }
+    if (strcmp(line, "wait") == 0) {
+        s->waits = true;
+        s->quiet = false;
+        return TRUE;
+    }
+    if (strcmp(line, "pause") == 0) {
+        s->resume_at = viewer_seconds() + g_ascii_strtod(rest, NULL);
+        return TRUE;
+    }
+    if (strcmp(line, "resize") == 0) {
+        return resize(s, rest);
+    }
+    if (strcmp(line, "print") == 0) {
+        return print_text(s, rest);
+    }
+    if (strcmp(line, "expect") == 0) {
+        return expect_text(s, rest);
+    }
+    if (strcmp(line, "enter") == 0) {
+        return enter_text(s, rest);
+    }
+    if (strcmp(line, "screenshot") == 0) {
+        s->shot = rest;
+        s->waits = true;
+        s->quiet = false;
+        return TRUE;
+    }
+    if (strcmp(line, "note") == 0) {
+        g_print("%s\n", rest);
+        return TRUE;
+    }
+    return activate(s, line, rest);
+}
+
+/* Is there something to wait for? What has been computed is shown when some frames have been drawn
+ * since. */
+static bool is_unsettled(script *s) {
+    if (viewer_seconds() < s->resume_at) {
+        return true;
+    }
+    if (!s->waits) {
+        return false;
+    }
+    GdkFrameClock *clock = gtk_widget_get_frame_clock(GTK_WIDGET(s->v->window));
+    gint64 frame = gdk_frame_clock_get_frame_counter(clock);
+    if (viewer_requests_busy(s->v) || s->v->picture_is_old) {
+        s->quiet = false;
+        return true;
+    }
+    if (!s->quiet) {
+        s->quiet = true;
+        s->quiet_at = frame;
+    }
+    if (frame < s->quiet_at + QUIET_FRAMES) {
+        gtk_widget_queue_draw(GTK_WIDGET(s->v->window));
+        return true;
+    }
+    s->waits = false;
+    return false;
+}
+
+static gboolean tick(gpointer user) {
+    script *s = user;
+    if (s->v->window == NULL) {
+        return G_SOURCE_REMOVE;
+    }
+    if (is_unsettled(s)) {
+        return G_SOURCE_CONTINUE;
+    }
+    const char *shot = s->shot;
+    s->shot = NULL;
+    gboolean good = shot == NULL || viewer_screenshot(s->v, shot) || fail(s, s->v->message);
+    if (good && s->lines[s->at] != NULL && step(s, s->lines[s->at++])) {
+        return G_SOURCE_CONTINUE;
+    }
+    if (s->v->scripted) {
+        gtk_window_close(s->v->window);
+    }
+    return G_SOURCE_REMOVE;
+}
+
+void viewer_script_run(viewer *v, const char *name, char *text) {
+    script *s = g_new0(script, 1);
+    s->v = v;
+    s->name = g_strdup(name);
+    s->text = text;
+    s->lines = g_strsplit(text, "\n", -1);
+    g_timeout_add_full(G_PRIORITY_DEFAULT, TICK_MS, tick, s, script_free);
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Scripts: what a user could do, written down, one step a line. For tests, and for the pictures of
+ * the documentation.
+ *
+ *     ACTION [PARAMETER]       an action (actions.h), with the rest of the line as its parameter
+ *     wait                     until nothing is computed and the window shows it
+ *     pause SECONDS
+ *     resize WIDTH HEIGHT      of the window
+ *     print WIDGET             the widget's text, "WIDGET: text", on standard output
+ *     expect WIDGET TEXT       ends the program with status 1 unless the widget's text has TEXT
+ *     enter WIDGET TEXT        writes into an entry and leaves it
+ *     screenshot FILE          as the action, after a wait
+ *     note TEXT                on standard output
+ *     # ...                    nothing
+ *
+ * At its end the window is closed, if the viewer is scripted.
+ */
+#ifndef SRP_VIEWER_SCRIPT_H
+#define SRP_VIEWER_SCRIPT_H
+
+#include "viewer.h"
+
+/* Takes `text` over and begins to run it; `name` stands for it in messages. */
+void viewer_script_run(viewer *v, const char *name, char *text);
+
+#endif

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "session.h"
+
+#include <srp/const.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- attitude ---- */
+
+/* `v` turned about axis 0, 1, 2. */
+static srp_vec3 turned(srp_vec3 v, int axis, double angle) {
+    double c = cos(angle), s = sin(angle);
+    switch (axis) {
+    case 0:
+        return srp_vec3_make(v.x, c * v.y - s * v.z, s * v.y + c * v.z);
+    case 1:
+        return srp_vec3_make(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+    default:
+        return srp_vec3_make(c * v.x - s * v.y, s * v.x + c * v.y, v.z);
+    }
+}
+
+srp_vec3 viewer_attitude_to_room(const viewer_attitude *attitude, srp_vec3 body) {
+    for (int axis = 0; axis < 3; ++axis) {
+        body = turned(body, axis, SRP_RAD_PER_DEG * attitude->turn_deg[axis]);
+    }
+    return body;
+}
+
+srp_vec3 viewer_attitude_to_body(const viewer_attitude *attitude, srp_vec3 room) {
+    for (int axis = 2; axis >= 0; --axis) {
+        room = turned(room, axis, -SRP_RAD_PER_DEG * attitude->turn_deg[axis]);
+    }
+    return room;
+}
+
+static double rounded(double degrees) {
+    double r = round(1e9 * degrees) / 1e9;
+    return r == 0.0 ? 0.0 : r; /* no -0 */
+}
+
+void viewer_attitude_sun(const viewer_attitude *attitude, double *az_deg, double *el_deg) {
+    srp_vec3 s = viewer_attitude_to_body(attitude, srp_vec3_make(1.0, 0.0, 0.0));
+    double across = hypot(s.x, s.y);
+    *el_deg = rounded(atan2(s.z, across) / SRP_RAD_PER_DEG);
+    *az_deg = across > 1e-12 ? rounded(atan2(s.y, s.x) / SRP_RAD_PER_DEG) : 0.0;
+    if (*az_deg == -180.0) {
+        *az_deg = 180.0;
+    }
+}
+
+viewer_attitude viewer_attitude_for_sun(double az_deg, double el_deg) {
+    srp_vec3 s = srp_direction_from_deg(az_deg, el_deg);
+    double z = -asin(fmax(-1.0, fmin(1.0, s.y)));
+    double y = hypot(s.x, s.z) > 1e-12 ? atan2(s.z, s.x) : 0.0;
+    viewer_attitude attitude = {{0.0, rounded(y / SRP_RAD_PER_DEG), rounded(z / SRP_RAD_PER_DEG)}};
+    return attitude;
+}
+
+/* ---- life ---- */
+
+viewer_session *viewer_session_create(void) {
+    viewer_session *session = calloc(1, sizeof *session);
+    if (session != NULL) {
+        session->setup = viewer_setup_create();
+        if (session->setup == NULL) {
+            free(session);
+            return NULL;
+        }
+    }
+    return session;
+}
+
+static void free_table(viewer_table *table) {
+    srp_table_destroy(table->table);
+    free(table->name);
+    free(table->command);
+    free(table->path);
+}
+
+void viewer_session_destroy(viewer_session *session) {
+    if (session == NULL) {
+        return;
+    }
+    viewer_session_clear_tables(session);
+    free(session->tables);
+    free(session->arrows);
+    viewer_engine_release(session->engine);
+    viewer_setup_destroy(session->setup);
+    free(session);
+}
+
+/* ---- engine, force, arrows ---- */
+
+static const char *optics_of(const viewer_engine *engine) {
+    return engine->mesh != NULL ? srp_scene_optics_hash(engine->mesh) : "";
+}
+
+static bool comparable(const viewer_engine *a, const viewer_engine *b) {
+    return a != NULL && b != NULL && a->shape == b->shape && a->method == b->method &&
+           strcmp(optics_of(a), optics_of(b)) == 0;
+}
+
+void viewer_session_set_engine(viewer_session *session, viewer_engine *engine) {
+    if (!comparable(session->engine, engine)) {
+        viewer_session_clear_arrows(session);
+        session->latency_count = 0;
+    }
+    viewer_engine_release(session->engine);
+    session->engine = engine;
+    session->force_known = false;
+}
+
+static bool is_recorded(const viewer_session *session, const viewer_force *force) {
+    for (size_t i = session->arrow_count; i > 0; --i) {
+        const viewer_arrow *arrow = &session->arrows[i - 1];
+        if (arrow->az_deg == force->az_deg && arrow->el_deg == force->el_deg) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool viewer_session_set_force(viewer_session *session, const viewer_force *force) {
+    session->force = *force;
+    session->force_known = true;
+    if (!session->recording || is_recorded(session, force)) {
+        return true;
+    }
+    if (session->arrow_count == session->arrow_room) {
+        size_t room = 2 * session->arrow_room + 64;
+        viewer_arrow *grown = realloc(session->arrows, room * sizeof *grown);
+        if (grown == NULL) {
+            return false;
+        }
+        session->arrows = grown;
+        session->arrow_room = room;
+    }
+    double magnitude = srp_vec3_norm(force->response.f);
+    srp_vec3 direction = srp_vec3_make(0.0, 0.0, 0.0);
+    if (magnitude > 0.0) {
+        direction = srp_vec3_scale(1.0 / magnitude, force->response.f);
+    }
+    session->arrows[session->arrow_count++] =
+        (viewer_arrow){force->az_deg, force->el_deg, direction, magnitude};
+    return true;
+}
+
+void viewer_session_clear_arrows(viewer_session *session) {
+    session->arrow_count = 0;
+}
+
+bool viewer_session_arrow_range(const viewer_session *session, double *least, double *largest) {
+    if (session->arrow_count == 0) {
+        return false;
+    }
+    *least = INFINITY;
+    *largest = -INFINITY;
+    for (size_t i = 0; i < session->arrow_count; ++i) {
+        *least = fmin(*least, session->arrows[i].magnitude);
+        *largest = fmax(*largest, session->arrows[i].magnitude);
+    }
+    return true;
+}
+
+void viewer_arrow_colour(double share, float rgb[3]) {
+    /* Blue, cyan, green, yellow, red, as the paper has them, a little darker in the middle. */
+    static const float stops[5][3] = {{0.13f, 0.24f, 0.85f},
+                                      {0.07f, 0.62f, 0.83f},
+                                      {0.18f, 0.65f, 0.29f},
+                                      {0.93f, 0.70f, 0.13f},
+                                      {0.85f, 0.13f, 0.10f}};
+    double at = 4.0 * fmax(0.0, fmin(1.0, isnan(share) ? 0.0 : share));
+    int k = at >= 4.0 ? 3 : (int)at;
+    float part = (float)(at - k);
+    for (int c = 0; c < 3; ++c) {
+        rgb[c] = stops[k][c] + part * (stops[k + 1][c] - stops[k][c]);
+    }
+}
+
+/* ---- latency ---- */
+
+enum { LATENCIES = sizeof((viewer_session *)0)->latency / sizeof(double) };
+
+void viewer_session_add_latency(viewer_session *session, double seconds) {
+    session->latency[session->latency_count++ % LATENCIES] = seconds;
+}
+
+static int by_size(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double viewer_session_median_latency(const viewer_session *session) {
+    double sorted[LATENCIES];
+    size_t count = session->latency_count < LATENCIES ? session->latency_count : LATENCIES;
+    if (count == 0) {
+        return NAN;
+    }
+    memcpy(sorted, session->latency, count * sizeof *sorted);
+    qsort(sorted, count, sizeof *sorted, by_size);
+    return count % 2 == 1 ? sorted[count / 2] : 0.5 * (sorted[count / 2 - 1] + sorted[count / 2]);
+}
+
+/* ---- tables ---- */
+
+bool viewer_session_add_table(viewer_session *session, viewer_table table) {
+    viewer_table *grown =
+        realloc(session->tables, (session->table_count + 1) * sizeof *session->tables);
+    if (grown == NULL) {
+        free_table(&table);
+        return false;
+    }
+    session->tables = grown;
+    session->tables[session->table_count++] = table;
+    return true;
+}
+
+void viewer_session_clear_tables(viewer_session *session) {
+    for (size_t i = 0; i < session->table_count; ++i) {
+        free_table(&session->tables[i]);
+    }
+    session->table_count = 0;
+}

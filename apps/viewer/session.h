@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * All that a session knows, apart from how it is shown: setup and engine, attitude, the newest
+ * force, recorded arrows, tables. No toolkit, and one thread: the window's.
+ */
+#ifndef SRP_VIEWER_SESSION_H
+#define SRP_VIEWER_SESSION_H
+
+#include "engine.h"
+
+#include <srp/table.h>
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* ---- attitude ---- */
+
+/*
+ * The Sun stands on the X axis of the room. The spacecraft is turned about its X axis, then about
+ * the room's Y, then about its Z: v_room = Rz(z) Ry(y) Rx(x) v_body. Degrees, right-handed.
+ */
+typedef struct viewer_attitude {
+    double turn_deg[3];
+} viewer_attitude;
+
+/* Azimuth and elevation of the Sun in body axes [deg], rounded to 1e-9 degrees, so that they can be
+ * written down and mean the same again. */
+void viewer_attitude_sun(const viewer_attitude *attitude, double *az_deg, double *el_deg);
+/* The attitude without a turn about X under which the Sun stands there. */
+viewer_attitude viewer_attitude_for_sun(double az_deg, double el_deg);
+/* A vector of the room in body axes, and back. */
+srp_vec3 viewer_attitude_to_body(const viewer_attitude *attitude, srp_vec3 room);
+srp_vec3 viewer_attitude_to_room(const viewer_attitude *attitude, srp_vec3 body);
+
+/* ---- arrows ---- */
+
+/* One attitude that was recorded. */
+typedef struct viewer_arrow {
+    double az_deg, el_deg;
+    srp_vec3 direction; /* of f, unit, body frame; 0 where f is 0 */
+    double magnitude;   /* |f| [m^2] */
+} viewer_arrow;
+
+/* ---- tables ---- */
+
+typedef struct viewer_table {
+    srp_table *table;
+    char *name;    /* what lists show */
+    char *command; /* that computes it; NULL: it came from a file */
+    char *path;    /* where it is on disk; NULL: nowhere yet */
+} viewer_table;
+
+/* ---- the session ---- */
+
+typedef struct viewer_session {
+    viewer_setup *setup;   /* what the user has said */
+    viewer_engine *engine; /* the newest that is made of it; NULL: none yet */
+    viewer_attitude attitude;
+    bool force_known;
+    viewer_force force;
+    bool recording;
+    viewer_arrow *arrows;
+    size_t arrow_count, arrow_room;
+    viewer_table *tables;
+    size_t table_count;
+    double latency[64]; /* slider to new arrow [s], a ring of the last ones */
+    size_t latency_count;
+} viewer_session;
+
+/* NULL without memory. */
+viewer_session *viewer_session_create(void);
+void viewer_session_destroy(viewer_session *session);
+
+/* Takes the reference over. Arrows of another shape or method are forgotten: they are of no use
+ * beside new ones. */
+void viewer_session_set_engine(viewer_session *session, viewer_engine *engine);
+/* The newest force; recorded as an arrow while `recording`, once per direction. False: no memory
+ * for the arrow. */
+bool viewer_session_set_force(viewer_session *session, const viewer_force *force);
+void viewer_session_clear_arrows(viewer_session *session);
+/* Least and largest magnitude of the arrows; false: there are none. */
+bool viewer_session_arrow_range(const viewer_session *session, double *least, double *largest);
+/* From blue (0) to red (1). */
+void viewer_arrow_colour(double share, float rgb[3]);
+
+void viewer_session_add_latency(viewer_session *session, double seconds);
+/* NAN: none yet. */
+double viewer_session_median_latency(const viewer_session *session);
+
+/* Takes table, name, command and path over; false, and they are freed, without memory. */
+bool viewer_session_add_table(viewer_session *session, viewer_table table);
+/* Forgets all tables; nobody may be reading one. */
+void viewer_session_clear_tables(viewer_session *session);
+
+#endif

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "ui.h"
+
+#include <string.h>
+
+GtkWidget *ui_box(GtkOrientation orientation, int spacing) {
+    return gtk_box_new(orientation, spacing);
+}
+
+static void add_classes(GtkWidget *widget, const char *classes) {
+    char **each = classes != NULL ? g_strsplit(classes, " ", -1) : NULL;
+    for (size_t i = 0; each != NULL && each[i] != NULL; ++i) {
+        gtk_widget_add_css_class(widget, each[i]);
+    }
+    g_strfreev(each);
+}
+
+GtkWidget *ui_label(const char *text, const char *classes) {
+    GtkWidget *label = gtk_label_new(text);
+    gtk_label_set_xalign(GTK_LABEL(label), 0.0f);
+    add_classes(label, classes);
+    return label;
+}
+
+GtkWidget *ui_value(const char *name) {
+    GtkWidget *label = ui_label("", "value");
+    gtk_label_set_xalign(GTK_LABEL(label), 1.0f);
+    gtk_label_set_selectable(GTK_LABEL(label), TRUE);
+    gtk_widget_set_can_focus(label, FALSE);
+    gtk_widget_set_name(label, name);
+    return label;
+}
+
+GtkWidget *ui_mnemonic(const char *text, GtkWidget *target) {
+    GtkWidget *label = gtk_label_new_with_mnemonic(text);
+    gtk_label_set_xalign(GTK_LABEL(label), 0.0f);
+    if (target != NULL) {
+        gtk_label_set_mnemonic_widget(GTK_LABEL(label), target);
+    }
+    return label;
+}
+
+GtkWidget *ui_button(const char *text, const char *action, const char *tip) {
+    GtkWidget *button = gtk_button_new_with_mnemonic(text);
+    char *full = g_strconcat("win.", action, NULL);
+    gtk_actionable_set_action_name(GTK_ACTIONABLE(button), full);
+    gtk_widget_set_name(button, action);
+    gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
+    gtk_widget_set_tooltip_text(button, tip);
+    g_free(full);
+    return button;
+}
+
+GtkWidget *ui_explanation(const char *heading, const char *text) {
+    GtkWidget *button = gtk_menu_button_new();
+    GtkWidget *popover = gtk_popover_new(), *box = ui_box(GTK_ORIENTATION_VERTICAL, 6);
+    GtkWidget *words = ui_label(text, NULL);
+    gtk_label_set_wrap(GTK_LABEL(words), TRUE);
+    gtk_label_set_max_width_chars(GTK_LABEL(words), 44);
+    gtk_box_append(GTK_BOX(box), ui_label(heading, "heading"));
+    gtk_box_append(GTK_BOX(box), words);
+    gtk_popover_set_child(GTK_POPOVER(popover), box);
+    gtk_menu_button_set_child(GTK_MENU_BUTTON(button), gtk_label_new("i"));
+    gtk_menu_button_set_popover(GTK_MENU_BUTTON(button), popover);
+    gtk_menu_button_set_has_frame(GTK_MENU_BUTTON(button), FALSE);
+    gtk_widget_add_css_class(button, "explain");
+    gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
+    gtk_widget_set_tooltip_text(button, text);
+    return button;
+}
+
+/* ---- entries ---- */
+
+typedef struct entry_target {
+    viewer *v;
+    char *action, *key;
+    char *shown; /* what the session has */
+} entry_target;
+
+static void free_target(gpointer user) {
+    entry_target *target = user;
+    g_free(target->action);
+    g_free(target->key);
+    g_free(target->shown);
+    g_free(target);
+}
+
+static void send_text(GtkWidget *entry) {
+    entry_target *target = g_object_get_data(G_OBJECT(entry), "target");
+    const char *text = gtk_editable_get_text(GTK_EDITABLE(entry));
+    if (g_strcmp0(text, target->shown) == 0 || target->v->window == NULL) {
+        return;
+    }
+    char *words =
+        target->key != NULL ? g_strdup_printf("%s=%s", target->key, text) : g_strdup(text);
+    g_free(target->shown);
+    target->shown = g_strdup(text);
+    viewer_act_text(target->v, target->action, words);
+    g_free(words);
+}
+
+static void on_activate(GtkEntry *entry, gpointer user) {
+    (void)user;
+    send_text(GTK_WIDGET(entry));
+}
+
+static void on_leave(GtkEventControllerFocus *focus, gpointer user) {
+    (void)user;
+    send_text(gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus)));
+}
+
+GtkWidget *ui_entry(viewer *v, const char *name, int width, const char *action, const char *key) {
+    GtkWidget *entry = gtk_entry_new();
+    entry_target *target = g_new0(entry_target, 1);
+    target->v = v;
+    target->action = g_strdup(action);
+    target->key = g_strdup(key);
+    target->shown = g_strdup("");
+    g_object_set_data_full(G_OBJECT(entry), "target", target, free_target);
+    gtk_widget_set_name(entry, name);
+    gtk_editable_set_width_chars(GTK_EDITABLE(entry), width);
+    gtk_editable_set_max_width_chars(GTK_EDITABLE(entry), width);
+    gtk_widget_set_valign(entry, GTK_ALIGN_CENTER);
+    g_signal_connect(entry, "activate", G_CALLBACK(on_activate), NULL);
+    GtkEventController *focus = gtk_event_controller_focus_new();
+    g_signal_connect(focus, "leave", G_CALLBACK(on_leave), NULL);
+    gtk_widget_add_controller(entry, focus);
+    return entry;
+}
+
+void ui_entry_show(GtkWidget *entry, const char *text) {
+    entry_target *target = g_object_get_data(G_OBJECT(entry), "target");
+    text = text != NULL ? text : "";
+    if (g_strcmp0(text, target->shown) != 0) {
+        g_free(target->shown);
+        target->shown = g_strdup(text);
+        gtk_editable_set_text(GTK_EDITABLE(entry), text);
+    }
+}
+
+/* ---- the rest ---- */
+
+static void on_setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer user) {
+    (void)factory, (void)user;
+    GtkWidget *label = ui_label("", NULL);
+    gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+    gtk_label_set_width_chars(GTK_LABEL(label), 8);
+    gtk_list_item_set_child(item, label);
+}
+
+static void on_bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer user) {
+    (void)factory, (void)user;
+    const char *text =
+        gtk_string_object_get_string(GTK_STRING_OBJECT(gtk_list_item_get_item(item)));
+    gtk_label_set_text(GTK_LABEL(gtk_list_item_get_child(item)), text);
+    gtk_widget_set_tooltip_text(gtk_list_item_get_child(item), text);
+}
+
+/* In the list all words are whole. */
+static void on_setup_whole(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer user) {
+    (void)factory, (void)user;
+    gtk_list_item_set_child(item, ui_label("", NULL));
+}
+
+static GtkListItemFactory *factory_of(GCallback setup) {
+    GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+    g_signal_connect(factory, "setup", setup, NULL);
+    g_signal_connect(factory, "bind", G_CALLBACK(on_bind), NULL);
+    return factory;
+}
+
+GtkWidget *ui_choice(const char *name, GCallback chosen, gpointer user) {
+    GtkWidget *widget = gtk_drop_down_new(NULL, NULL);
+    GtkListItemFactory *cut = factory_of(G_CALLBACK(on_setup));
+    GtkListItemFactory *whole = factory_of(G_CALLBACK(on_setup_whole));
+    gtk_drop_down_set_factory(GTK_DROP_DOWN(widget), cut);
+    gtk_drop_down_set_list_factory(GTK_DROP_DOWN(widget), whole);
+    g_object_unref(cut);
+    g_object_unref(whole);
+    gtk_widget_set_name(widget, name);
+    gtk_widget_set_valign(widget, GTK_ALIGN_CENTER);
+    g_signal_connect(widget, "notify::selected", chosen, user);
+    return widget;
+}
+
+void ui_choice_set(GtkDropDown *choice, const char *const *words, guint selected) {
+    GtkStringList *list = gtk_string_list_new(words);
+    gtk_drop_down_set_model(choice, G_LIST_MODEL(list));
+    gtk_drop_down_set_selected(choice, selected);
+    g_object_unref(list);
+}
+
+void ui_clear(GtkWidget *parent) {
+    for (GtkWidget *child; (child = gtk_widget_get_first_child(parent)) != NULL;) {
+        if (GTK_IS_GRID(parent)) {
+            gtk_grid_remove(GTK_GRID(parent), child);
+        } else {
+            gtk_box_remove(GTK_BOX(parent), child);
+        }
+    }
+}
+
+static GtkWidget *find_below(GtkWidget *widget, const char *name) {
+    if (strcmp(gtk_widget_get_name(widget), name) == 0) {
+        return widget;
+    }
+    for (GtkWidget *child = gtk_widget_get_first_child(widget); child != NULL;
+         child = gtk_widget_get_next_sibling(child)) {
+        GtkWidget *found = find_below(child, name);
+        if (found != NULL) {
+            return found;
+        }
+    }
+    return NULL;
+}
+
+GtkWidget *ui_find(viewer *v, const char *name) {
+    return v->window != NULL ? find_below(GTK_WIDGET(v->window), name) : NULL;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Widgets that panes are made of: every one has a name, by which scripts find it. */
+#ifndef SRP_VIEWER_UI_H
+#define SRP_VIEWER_UI_H
+
+#include "viewer.h"
+
+#include <gtk/gtk.h>
+
+GtkWidget *ui_box(GtkOrientation orientation, int spacing);
+/* Text; `classes`: style classes separated by blanks, may be NULL. */
+GtkWidget *ui_label(const char *text, const char *classes);
+/* A number that is shown: equal widths, can be selected and copied. */
+GtkWidget *ui_value(const char *name);
+/* "_Label" that moves the focus to `target` (may be set later with
+ * gtk_label_set_mnemonic_widget()). */
+GtkWidget *ui_mnemonic(const char *text, GtkWidget *target);
+/* A button "_Text" that activates the action "win.name". */
+GtkWidget *ui_button(const char *text, const char *action, const char *tip);
+/* A small "i" that explains. */
+GtkWidget *ui_explanation(const char *heading, const char *text);
+/* An entry `width` characters wide that sends its text to `action` as "KEY=text" (key NULL: the
+ * text alone) when it is activated or left. */
+GtkWidget *ui_entry(viewer *v, const char *name, int width, const char *action, const char *key);
+/* Sets the text unless the user is typing in it. */
+void ui_entry_show(GtkWidget *entry, const char *text);
+/* A drop-down of words, which are cut where there is no room for them. `chosen` has the signature
+ * of notify signals. */
+GtkWidget *ui_choice(const char *name, GCallback chosen, gpointer user);
+/* What there is to choose from. The callback hears of it, too. */
+void ui_choice_set(GtkDropDown *choice, const char *const *words, guint selected);
+/* Removes all children of a box or grid. */
+void ui_clear(GtkWidget *parent);
+/* The widget of this name in the window, NULL: none. */
+GtkWidget *ui_find(viewer *v, const char *name);
+
+#endif

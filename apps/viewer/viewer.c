@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "viewer.h"
+
+#include <string.h>
+
+const char *const VIEWER_TAB_NAME[TAB_COUNT] = {"spacecraft", "graphics", "compare", "orbit"};
+
+typedef struct listening {
+    viewer_listener changed;
+    void *pane;
+} listening;
+
+void viewer_listen(viewer *v, viewer_listener changed, void *pane) {
+    listening *entry = g_new0(listening, 1);
+    *entry = (listening){changed, pane};
+    g_ptr_array_add(v->listeners, entry);
+}
+
+void viewer_tell(viewer *v, unsigned what) {
+    for (guint i = 0; v->window != NULL && i < v->listeners->len; ++i) {
+        const listening *entry = g_ptr_array_index(v->listeners, i);
+        entry->changed(entry->pane, what);
+    }
+}
+
+static void set_message(viewer *v, const char *text, bool is_problem) {
+    if (strcmp(v->message, text) != 0 || v->message_is_problem != is_problem) {
+        g_strlcpy(v->message, text, sizeof v->message);
+        v->message_is_problem = is_problem;
+        viewer_tell(v, CHANGED_MESSAGE);
+    }
+}
+
+void viewer_say(viewer *v, const char *text) {
+    set_message(v, text, false);
+}
+
+void viewer_complain(viewer *v, const char *text) {
+    if (text[0] != '\0' || v->message_is_problem) {
+        set_message(v, text, text[0] != '\0');
+    }
+}
+
+void viewer_act(viewer *v, const char *action, GVariant *parameter) {
+    g_action_group_activate_action(G_ACTION_GROUP(v->window), action, parameter);
+}
+
+void viewer_act_text(viewer *v, const char *action, const char *text) {
+    char *valid = g_utf8_make_valid(text, -1);
+    viewer_act(v, action, g_variant_new_string(valid));
+    g_free(valid);
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The program: one window over one session. Actions (actions.h) change the session, jobs
+ * (requests.h) compute, and panes show what has changed. Panes never call one another: they listen.
+ */
+#ifndef SRP_VIEWER_VIEWER_H
+#define SRP_VIEWER_VIEWER_H
+
+#include "requests.h"
+#include "session.h"
+#include "worker.h"
+
+#include <gtk/gtk.h>
+
+/* What has changed; bits. */
+enum {
+    CHANGED_SETUP = 1 << 0,  /* what the user has said */
+    CHANGED_ENGINE = 1 << 1, /* spacecraft, optics, method are ready, or cannot be */
+    CHANGED_SUN = 1 << 2,
+    CHANGED_FORCE = 1 << 3,
+    CHANGED_ARROWS = 1 << 4,
+    CHANGED_TABLES = 1 << 5,
+    CHANGED_VIEW = 1 << 6, /* how things are shown: camera, colours */
+    CHANGED_BUSY = 1 << 7, /* something began to be computed, or ended */
+    CHANGED_PROBE = 1 << 8,
+    CHANGED_COMPARISON = 1 << 9,
+    CHANGED_ORBIT = 1 << 10,
+    CHANGED_MESSAGE = 1 << 11,
+    CHANGED_ALL = (1 << 12) - 1
+};
+
+typedef enum viewer_colouring { COLOUR_MATERIAL, COLOUR_INCIDENCE, COLOUR_FORCE } viewer_colouring;
+
+/* The eye, in axes of the room: the Sun is on +X, +Z is up. */
+typedef struct viewer_camera {
+    double az_deg, el_deg;
+    double zoom; /* 1: the whole spacecraft */
+} viewer_camera;
+
+enum { TAB_SPACECRAFT, TAB_GRAPHICS, TAB_COMPARE, TAB_ORBIT, TAB_COUNT };
+extern const char *const VIEWER_TAB_NAME[TAB_COUNT]; /* as actions know them */
+
+typedef struct viewer viewer;
+typedef void (*viewer_listener)(void *pane, unsigned what);
+
+struct viewer {
+    GtkApplication *application;
+    GtkWindow *window; /* NULL until it is there, and after it is gone */
+    GtkNotebook *tabs;
+    viewer_session *session;
+    viewer_requests requests;
+    /* How things are shown. */
+    viewer_camera camera;
+    viewer_colouring colouring;
+    bool shadows;
+    int table_shown;         /* index of the table on the graphics tab, -1: none */
+    int compared[2];         /* -1: none */
+    double chart_view[4][2]; /* azimuth and elevation of the eye of each surface [deg] */
+    bool charts_together;
+    double az_step_deg, el_step_deg;
+    /* What there is to say. */
+    char message[VIEWER_WORDS_SIZE];
+    bool message_is_problem;
+    bool picture_is_old; /* the 3D area has not drawn the newest state yet */
+    double asked_at;     /* when the newest force was asked for, NAN: shown already */
+    GPtrArray *listeners;
+    int exit_status;
+    bool scripted;  /* the window closes when the script is at its end */
+    bool remembers; /* what is remembered is read at the start and written at the end */
+};
+
+void viewer_listen(viewer *v, viewer_listener changed, void *pane);
+/* Something changed: every pane hears of it, now. */
+void viewer_tell(viewer *v, unsigned what);
+
+/* A line for the user, until the next one; "" says nothing. */
+void viewer_say(viewer *v, const char *text);
+/* The same for what went wrong; "" takes back the last complaint, and nothing else. */
+void viewer_complain(viewer *v, const char *text);
+
+/* Activates an action, "turn-x", as a widget does; `parameter` may be NULL. */
+void viewer_act(viewer *v, const char *action, GVariant *parameter);
+void viewer_act_text(viewer *v, const char *action, const char *text);
+
+/* The window with all panes. */
+void viewer_build_window(viewer *v);
+
+/* Each makes a pane, which lives as long as its widget. */
+GtkWidget *viewer_spacecraft_pane(viewer *v);
+GtkWidget *viewer_method_pane(viewer *v);
+GtkWidget *viewer_scene_tab(viewer *v);
+GtkWidget *viewer_table_tab(viewer *v);
+GtkWidget *viewer_compare_tab(viewer *v);
+GtkWidget *viewer_orbit_tab(viewer *v); /* in builds with missions */
+
+#endif

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Small things that all of the viewer's model needs: texts, and messages that are collected. */
+#ifndef SRP_VIEWER_WORDS_H
+#define SRP_VIEWER_WORDS_H
+
+#include <srp/status.h>
+
+/* A copy, freed by free(); NULL for NULL and without memory. */
+char *viewer_text_copy(const char *text);
+
+/* What went wrong or is worth a warning: sentences, one a line. Put one on the stack, all zeros. */
+enum { VIEWER_WORDS_SIZE = 2048 };
+typedef struct viewer_words {
+    char text[VIEWER_WORDS_SIZE];
+} viewer_words;
+
+void viewer_words_add(viewer_words *words, const char *line);
+/* "file:line:column: message" of an error. */
+void viewer_words_add_error(viewer_words *words, const srp_error *error);
+
+/* From here on what this thread says (messages.h) is collected in `words`; NULL: goes to stderr. */
+void viewer_words_listen(viewer_words *words);
+
+#endif

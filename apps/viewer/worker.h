@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * One thread that computes, so that the window never waits. Jobs go into numbered slots: a job that
+ * still waits in a slot is dropped for a newer one, so that a slider can ask as often as it likes.
+ * What is done comes back to the thread of the main context.
+ *
+ * All functions are called from that thread, but for viewer_job's run().
+ */
+#ifndef SRP_VIEWER_WORKER_H
+#define SRP_VIEWER_WORKER_H
+
+#include <glib.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+
+typedef struct viewer_job viewer_job;
+/* First member of every job; made by calloc() and filled by whoever asks. */
+struct viewer_job {
+    void (*run)(viewer_job *job);     /* on the worker's thread; looks at `cancel` now and then */
+    void (*deliver)(viewer_job *job); /* on the main thread, unless dropped before; may be NULL */
+    void (*release)(viewer_job *job); /* on the main thread, always: frees the job */
+    atomic_bool cancel;               /* somebody wants it to end early */
+    /* The worker's. */
+    unsigned slot;
+};
+
+enum { VIEWER_SLOTS = 4 };
+
+typedef struct viewer_worker viewer_worker;
+
+viewer_worker *viewer_worker_create(const char *name, GMainContext *context);
+/* Cancels what runs, waits for it to end, drops everything else; nothing is delivered any more. */
+void viewer_worker_destroy(viewer_worker *worker);
+
+/* Takes the job over. Slots with lower numbers come first. */
+void viewer_worker_submit(viewer_worker *worker, unsigned slot, viewer_job *job);
+/* Drops the job that waits in the slot, and asks the one that runs to end; that one is delivered.
+ */
+void viewer_worker_cancel(viewer_worker *worker, unsigned slot);
+/* Does a job of this slot wait, run, or wait to be delivered? */
+bool viewer_worker_is_busy(const viewer_worker *worker, unsigned slot);
+
+#endif

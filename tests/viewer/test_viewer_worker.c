@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The viewer's thread: newest wins, cancelling, an end at any time. */
+#include "srp_check.h"
+#include "worker.h"
+
+#include <stdlib.h>
+
+typedef struct counts {
+    atomic_int ran, cancelled;
+    int delivered, released, last;
+} counts;
+
+typedef struct probe {
+    viewer_job job;
+    counts *to;
+    int number;
+    bool waits; /* until it is cancelled, or `go` */
+    atomic_bool *go;
+} probe;
+
+static void run(viewer_job *base) {
+    probe *job = (probe *)base;
+    atomic_fetch_add(&job->to->ran, 1);
+    while (job->waits && !atomic_load(&job->job.cancel) &&
+           (job->go == NULL || !atomic_load(job->go))) {
+        g_usleep(200);
+    }
+    atomic_fetch_add(&job->to->cancelled, atomic_load(&job->job.cancel) ? 1 : 0);
+}
+
+static void deliver(viewer_job *base) {
+    probe *job = (probe *)base;
+    ++job->to->delivered;
+    job->to->last = job->number;
+}
+
+static void release(viewer_job *base) {
+    ++((probe *)base)->to->released;
+    free(base);
+}
+
+static viewer_job *make(counts *to, int number, bool waits, atomic_bool *go) {
+    probe *job = calloc(1, sizeof *job);
+    ck_assert_ptr_nonnull(job);
+    job->job.run = run;
+    job->job.deliver = deliver;
+    job->job.release = release;
+    job->to = to;
+    job->number = number;
+    job->waits = waits;
+    job->go = go;
+    return &job->job;
+}
+
+static void wait_until_idle(viewer_worker *worker, GMainContext *context) {
+    for (bool busy = true; busy;) {
+        g_main_context_iteration(context, FALSE);
+        g_usleep(100);
+        busy = false;
+        for (unsigned slot = 0; slot < VIEWER_SLOTS; ++slot) {
+            busy = busy || viewer_worker_is_busy(worker, slot);
+        }
+    }
+}
+
+static void wait_until_runs(counts *c, int jobs) {
+    while (atomic_load(&c->ran) < jobs) {
+        g_usleep(100);
+    }
+}
+
+START_TEST(newest_request_wins) {
+    GMainContext *context = g_main_context_new();
+    viewer_worker *worker = viewer_worker_create("test", context);
+    counts c = {0};
+    atomic_bool go = false;
+    viewer_worker_submit(worker, 1, make(&c, 0, true, &go));
+    wait_until_runs(&c, 1);
+    for (int k = 1; k <= 50; ++k) {
+        viewer_worker_submit(worker, 1, make(&c, k, false, NULL));
+    }
+    ck_assert(viewer_worker_is_busy(worker, 1));
+    ck_assert(!viewer_worker_is_busy(worker, 0));
+    ck_assert_int_eq(c.released, 49);
+    atomic_store(&go, true);
+    wait_until_idle(worker, context);
+    ck_assert_int_eq(atomic_load(&c.ran), 2);
+    ck_assert_int_eq(c.delivered, 2);
+    ck_assert_int_eq(c.last, 50);
+    ck_assert_int_eq(c.released, 51);
+    ck_assert_int_eq(atomic_load(&c.cancelled), 0);
+    viewer_worker_destroy(worker);
+    g_main_context_unref(context);
+}
+END_TEST
+
+START_TEST(cancelled_job_ends_and_is_delivered) {
+    GMainContext *context = g_main_context_new();
+    viewer_worker *worker = viewer_worker_create("test", context);
+    counts c = {0};
+    viewer_worker_submit(worker, 2, make(&c, 7, true, NULL));
+    wait_until_runs(&c, 1);
+    viewer_worker_submit(worker, 2, make(&c, 8, false, NULL));
+    viewer_worker_cancel(worker, 0); /* another slot: nothing happens */
+    ck_assert_int_eq(atomic_load(&c.cancelled), 0);
+    viewer_worker_cancel(worker, 2);
+    wait_until_idle(worker, context);
+    ck_assert_int_eq(atomic_load(&c.cancelled), 1);
+    ck_assert_int_eq(c.delivered, 1);
+    ck_assert_int_eq(c.last, 7);
+    ck_assert_int_eq(c.released, 2);
+    viewer_worker_destroy(worker);
+    g_main_context_unref(context);
+}
+END_TEST
+
+START_TEST(low_slots_come_first) {
+    GMainContext *context = g_main_context_new();
+    viewer_worker *worker = viewer_worker_create("test", context);
+    counts c = {0};
+    atomic_bool go = false;
+    viewer_worker_submit(worker, 3, make(&c, 0, true, &go));
+    wait_until_runs(&c, 1);
+    viewer_worker_submit(worker, 2, make(&c, 2, false, NULL));
+    viewer_worker_submit(worker, 1, make(&c, 1, false, NULL));
+    atomic_store(&go, true);
+    wait_until_idle(worker, context);
+    ck_assert_int_eq(c.delivered, 3);
+    ck_assert_int_eq(c.last, 2);
+    viewer_worker_destroy(worker);
+    g_main_context_unref(context);
+}
+END_TEST
+
+/* Closing while something runs, waits, and waits to be delivered: all is freed, nothing delivered.
+ */
+START_TEST(end_at_any_time) {
+    for (int round = 0; round < 40; ++round) {
+        GMainContext *context = g_main_context_new();
+        viewer_worker *worker = viewer_worker_create("test", context);
+        counts c = {0};
+        viewer_worker_submit(worker, 0, make(&c, 0, false, NULL));
+        if (round % 3 == 0) {
+            wait_until_runs(&c, 1);
+        }
+        viewer_worker_submit(worker, 1, make(&c, 1, true, NULL));
+        viewer_worker_submit(worker, 2, make(&c, 2, true, NULL));
+        g_usleep((gulong)(37 * round));
+        viewer_worker_destroy(worker);
+        ck_assert_int_eq(c.released, 3);
+        ck_assert_int_eq(c.delivered, 0);
+        g_main_context_iteration(context, FALSE);
+        ck_assert_int_eq(c.delivered, 0);
+        g_main_context_unref(context);
+    }
+    viewer_worker_destroy(NULL);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("viewer worker");
+    TCase *cases = tcase_create("worker");
+    tcase_set_timeout(cases, 120);
+    tcase_add_test(cases, newest_request_wins);
+    tcase_add_test(cases, cancelled_job_ends_and_is_delivered);
+    tcase_add_test(cases, low_slots_come_first);
+    tcase_add_test(cases, end_at_any_time);
+    suite_add_tcase(suite, cases);
+    return run_suite(suite);
+}

@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What can go wrong does so with clear words and without a hang.
+. "$(dirname "$0")/lib.sh"
+
+# No display.
+(
+    unset DISPLAY
+    status=0
+    timeout 60 "$VIEWER" "$ROOT/models/cube.obj" > "$scratch/out" 2> "$scratch/err" || status=$?
+    [ "$status" -eq 3 ] && grep -q 'there is no display' "$scratch/err"
+) || fail 'without a display: status 3 and a clear message'
+# What needs no display works without one.
+env -u DISPLAY "$VIEWER" --version | grep -q '^srp-viewer [0-9]' || fail '--version'
+env -u DISPLAY "$VIEWER" --help | grep -q -- '--screenshot' || fail '--help'
+env -u DISPLAY "$VIEWER" --list-actions | grep -q '^compute-table' || fail '--list-actions'
+start_display
+
+view 2 --no-such-option
+view 2 one.obj two.obj
+view 2 --actions "$scratch/no-such-file"
+
+# Files that are not there, or broken, and what comes after them.
+printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/broken.obj"
+printf 'usemtl foil\nv 0 0 0\nv 1 0 0\nv 0 1.5 0\nf 1 2 3\n' > "$scratch/bare.obj"
+cat > "$scratch/steps" << END
+wait
+expect message no-such.obj
+expect f-x —
+open $scratch/broken.obj
+wait
+expect message broken.obj:2:
+open $scratch/bare.obj
+wait
+expect message the material 'foil' has no optics
+compute-table
+expect message foil
+material foil=0.25,0.125
+wait
+expect message 
+expect lit-area e-
+method nplate
+wait
+expect message needs --plates
+method cannonball
+wait
+expect message --cr
+parameter grid=0
+expect message a whole number from 1 to 32768
+method exact
+wait
+open-table $scratch/no-such.nc
+expect message no-such.nc
+save $scratch/nothing.nc
+expect message There is no table yet
+save $scratch/nothing.gif
+expect message no
+open $ROOT/models/box-wing.obj
+wait
+expect model-name box-wing.obj
+expect lit-area e+
+END
+view 0 --actions "$scratch/steps" "$scratch/no-such.obj"
+
+# A table that is cancelled, and a window that is closed while it computes.
+cat > "$scratch/steps" << END
+wait
+az-step 0.5
+el-step 0.5
+tab graphics
+method raytrace
+parameter diffuse=8
+wait
+compute-table
+pause 0.7
+expect progress directions
+cancel
+wait
+expect message cancelled
+compute-table
+pause 0.5
+END
+began=$SECONDS
+view 0 --actions "$scratch/steps" "$ROOT/models/dish.obj"
+[ $((SECONDS - began)) -lt 120 ] || fail 'closing took too long'
+
+# Without OpenGL there is no picture, and all the rest.
+cat > "$scratch/steps" << END
+wait
+expect trouble No picture
+expect lit-area e+
+tab graphics
+compute-table
+wait
+expect table cube.obj
+END
+GDK_DEBUG=gl-disable GSK_RENDERER=cairo view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+judge
