@@ -340,7 +340,8 @@ static double checked_error(const table_job *job) {
     const srp_table_check *check = &srp_table_get_info(job->table)->check;
     for (size_t k = 0; k < count; ++k) {
         if (schemes[k] == asked) {
-            return check->errors[k].f_max / cli_interp_largest(job->table);
+            double largest = cli_interp_largest(job->table);
+            return largest > 0.0 ? check->errors[k].f_max / largest : 0.0;
         }
     }
     return NAN;

@@ -73,7 +73,8 @@ void cli_interp_check_report(const srp_table *table) {
     if (check->count == 0) {
         return;
     }
-    double share = 100.0 / cli_interp_largest(table);
+    double largest = cli_interp_largest(table);
+    double share = largest > 0.0 ? 100.0 / largest : 0.0;
     size_t count;
     const srp_interp_scheme *const *schemes = srp_interp_list(&count);
     printf("interpolation error of f in %u directions, mean and largest:\n", check->count);

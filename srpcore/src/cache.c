@@ -101,7 +101,7 @@ const srp_cache_params *srp_cache_get_params(const srp_cache *cache) {
 
 void srp_cache_warn(const srp_cache *cache, const srp_error *why) {
     srp_warn_at(&cache->log, why->file, why->line, why->column,
-                "%.500s; what is computed is not kept from here on", why->message);
+                "%.500s; what is computed is not kept until that is mended", why->message);
 }
 
 /* ---- Names ---------------------------------------------------------------------------------- */

@@ -84,7 +84,7 @@ static srp_status exchange(srp_demand *demand, bool wait, srp_error *error) {
     return status;
 }
 
-/* The same where nobody can be told but the log: once, and then without the cache. */
+/* The same where nobody can be told but the log: of one failure after the other, the first. */
 static void exchange_or_warn(srp_demand *demand, bool wait) {
     srp_error error;
     if (exchange(demand, wait, &error) == SRP_OK) {
@@ -137,7 +137,7 @@ void srp_demand_destroy(srp_demand *demand) {
     if (demand == NULL) {
         return;
     }
-    if (demand->cache != NULL && demand->unsaved > 0 && !demand->cache_failed) {
+    if (demand->cache != NULL && demand->unsaved > 0) {
         exchange_or_warn(demand, true);
     }
     srp_platform_monitor_destroy(demand->monitor);
@@ -232,9 +232,10 @@ static void save_if_due(srp_demand *demand) {
     }
     const srp_cache_params *params = srp_cache_get_params(demand->cache);
     srp_platform_monitor_enter(demand->monitor);
-    bool due = !demand->cache_failed && !demand->is_saving && demand->unsaved > 0 &&
-               (demand->unsaved >= params->flush_nodes ||
-                srp_platform_seconds() - demand->saved >= params->flush_seconds);
+    /* After a failure not with every batch: the cache may be gone for long. */
+    bool many = demand->unsaved >= params->flush_nodes && !demand->cache_failed;
+    bool due = !demand->is_saving && demand->unsaved > 0 &&
+               (many || srp_platform_seconds() - demand->saved >= params->flush_seconds);
     demand->is_saving = demand->is_saving || due;
     srp_platform_monitor_leave(demand->monitor);
     if (due) {
@@ -288,6 +289,10 @@ srp_status srp_demand_need(srp_demand *demand, size_t count, const srp_demand_no
 /* ---- Asking --------------------------------------------------------------------------------- */
 
 const srp_response *srp_demand_get(const srp_demand *demand, srp_demand_node node) {
+    const srp_grid grid = demand->table->grid;
+    if (node.i >= grid.az_count || node.j >= grid.el_count) {
+        return NULL;
+    }
     size_t index = first_index(demand, node);
     return state_of(demand, index) == NODE_READY ? &demand->table->nodes[index] : NULL;
 }

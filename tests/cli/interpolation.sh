@@ -37,6 +37,11 @@ expect 0 table "$MODELS/cube.obj" -o h.nc --max-error 1e-9 --check 10
 says 'warning: with steps of 1 degree the interpolation error is still '
 prints '65341 nodes'
 
+# Nothing is off by nothing.
+expect 0 table --method cannonball --cr 0 --area 2 --max-error 0.1 --check 20 -o zero.nc
+prints '(0 and 0 % of'
+prints 'steps of 30 x 30 degrees'
+
 # What excludes what.
 expect 2 table "$wing" -o i.nc --max-error 0.1 --step 5
 says '--max-error chooses the step: it excludes --step'

@@ -260,7 +260,7 @@ START_TEST(a_directory_that_cannot_be_used_costs_one_message) {
     ck_assert_int_eq(srp_demand_flush(demand, &error), SRP_IO);
     srp_demand_destroy(demand);
     ck_assert_int_eq(cache_test.messages, 1);
-    ck_assert_ptr_nonnull(strstr(cache_test.last_message, "is not kept from here on"));
+    ck_assert_ptr_nonnull(strstr(cache_test.last_message, "is not kept until that is mended"));
     ck_assert_ptr_nonnull(strstr(cache_test.last_message, "Not a directory"));
     srp_cache_close(cache);
     counting_end(&fixture);
@@ -327,7 +327,47 @@ START_TEST(a_cache_in_use_is_passed_by) {
 }
 END_TEST
 
+/* A cache that could not be used for a while is used again. */
+START_TEST(a_cache_that_is_free_again_is_used) {
+    counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
+    visit(&fixture, 0, 2);
+    srp_cache_params params = cache_params();
+    params.wait_seconds = 0.05;
+    srp_cache *cache = open_cache(&params);
+    char path[160];
+    int lock = -1;
+    srp_error error;
+    snprintf(path, sizeof path, "%s/lock", cache_test.directory);
+    assert_ok(srp_platform_lock_file(path, 0.0, &lock, &error), error);
+    srp_demand *demand = make_demand(&fixture, cache);
+    ck_assert_int_eq(cache_test.messages, 1);
+    ck_assert_ptr_nonnull(strstr(cache_test.last_message, "has locked the cache"));
+    srp_platform_unlock_file(lock);
+    need_columns(demand, 0, 6);
+    srp_demand_destroy(demand);
+    ck_assert_uint_eq(visit(&fixture, 0, 6), 0);
+    ck_assert_int_eq(cache_test.messages, 1);
+    srp_cache_close(cache);
+    counting_end(&fixture);
+}
+END_TEST
+
 /* ---- Its size, and what is in it ------------------------------------------------------------ */
+
+/* Whatever the limit, the table in use stays. */
+START_TEST(a_table_above_the_limit_is_kept) {
+    counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
+    srp_cache_params params = cache_params();
+    params.size_max = 1;
+    srp_cache *cache = open_cache(&params);
+    srp_demand *demand = make_demand(&fixture, cache);
+    need_columns(demand, 0, 2);
+    srp_demand_destroy(demand);
+    ck_assert_uint_eq(visit(&fixture, 0, 2), 0);
+    srp_cache_close(cache);
+    counting_end(&fixture);
+}
+END_TEST
 
 /* One table per seed; a stays below the limit by losing what was not used for longest. */
 START_TEST(it_stays_below_its_limit) {
@@ -445,6 +485,8 @@ int main(void) {
     tcase_add_test(tcase, a_directory_that_cannot_be_used_costs_one_message);
     tcase_add_test(tcase, a_full_disk_costs_one_message);
     tcase_add_test(tcase, a_cache_in_use_is_passed_by);
+    tcase_add_test(tcase, a_cache_that_is_free_again_is_used);
+    tcase_add_test(tcase, a_table_above_the_limit_is_kept);
     tcase_add_test(tcase, it_stays_below_its_limit);
     tcase_add_test(tcase, clearing_removes_tables_and_nothing_else);
     tcase_add_test(tcase, the_directory_is_that_of_the_user);

@@ -175,6 +175,8 @@ START_TEST(refusals_say_why) {
     ck_assert_int_eq(srp_demand_need(demand, 2, outside, &error), SRP_BAD_ARGUMENT);
     ck_assert_ptr_nonnull(strstr(error.message, "node (25, 4)"));
     ck_assert_int_eq(srp_demand_need(demand, 1, outside + 2, &error), SRP_BAD_ARGUMENT);
+    ck_assert_ptr_null(srp_demand_get(demand, outside[1]));
+    ck_assert_ptr_null(srp_demand_get(demand, (srp_demand_node){2000000, 40000000}));
     ck_assert_uint_eq(srp_demand_count(demand).ready, 0);
     ck_assert_int_eq(srp_demand_create(fixture.prepared, (srp_grid){1, 13}, NULL, &none, &error),
                      SRP_BAD_ARGUMENT);

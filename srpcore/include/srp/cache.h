@@ -28,8 +28,8 @@ SRP_BEGIN_DECLS
 typedef struct srp_cache srp_cache;
 
 typedef struct srp_cache_params {
-    /* NULL: that of the user, srpcore in $XDG_CACHE_HOME, or in ~/.cache where that is not set.
-     * Made when it is first written to. */
+    /* NULL: that of the user, srpcore in $XDG_CACHE_HOME, or in ~/.cache where that is not an
+     * absolute path. Made when it is first written to. */
     const char *directory;
     uint64_t size_max; /* [byte] of all files together */
     /* A table that fills itself is written when it is destroyed and, by the thread that has just

@@ -65,8 +65,8 @@ SRP_API void srp_demand_destroy(srp_demand *demand);
 SRP_API SRP_CHECK srp_status srp_demand_need(srp_demand *demand, size_t count,
                                              const srp_demand_node *nodes, srp_error *error);
 
-/* The response of a node, NULL while it is not known; owned by the table. Any thread; never waits.
- */
+/* The response of a node, NULL while it is not known and for what is no node of the grid; owned by
+ * the table. Any thread; never waits. */
 SRP_API const srp_response *srp_demand_get(const srp_demand *demand, srp_demand_node node);
 
 SRP_API srp_grid srp_demand_grid(const srp_demand *demand);
