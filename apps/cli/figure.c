@@ -74,6 +74,14 @@ int cli_figure_check(const cli_figure_options *options, const char *const *input
         fprintf(stderr, "%s: cannot write: %s\n", path, reason);
         return CLI_MACHINE_FAILED;
     }
+    /* PLplot goes back and forth in what it writes, and its end is looked at. */
+    bool special;
+    char *target = cli_system_write_target(path, &special);
+    free(target);
+    if (special) {
+        fprintf(stderr, "%s: cannot write: a figure needs a regular file\n", path);
+        return CLI_MACHINE_FAILED;
+    }
     if (!has_device(kind->device)) {
         cli_say("%s: PLplot lacks its driver %s (package plplot-driver-cairo)", path, kind->device);
         return CLI_MACHINE_FAILED;
@@ -314,15 +322,19 @@ static void open_page(const cli_figure_options *options, const cli_picture *pict
 
 int cli_figure_write(const cli_figure_options *options, const cli_picture *picture) {
     const format *kind = format_of(options->output);
-    char *const part = cli_part_name(options->output);
+    bool special;
+    char *const target = cli_system_write_target(options->output, &special);
+    char *const part = target != NULL ? cli_part_name(target) : NULL;
     if (part == NULL) {
         cli_say("no memory for the figure");
+        free(target);
         return CLI_MACHINE_FAILED;
     }
     FILE *probe = fopen(part, "wb"); /* PLplot asks for another name */
     if (probe == NULL) {
         fprintf(stderr, "%s: cannot write: %s\n", options->output, strerror(errno));
         free(part);
+        free(target);
         return CLI_MACHINE_FAILED;
     }
     fclose(probe);
@@ -342,8 +354,9 @@ int cli_figure_write(const cli_figure_options *options, const cli_picture *pictu
         fprintf(stderr, "%s: the figure could not be written\n", options->output);
         remove(part);
     } else {
-        status = cli_part_rename(part, options->output);
+        status = cli_part_rename(part, target);
     }
     free(part);
+    free(target);
     return status;
 }
