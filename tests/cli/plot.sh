@@ -95,6 +95,10 @@ if command -v pdfinfo > /dev/null; then
     grep -q '^Pages: *1$' info || fail 'the PDF has not one page'
     pdftotext a.pdf - 2> ../log/err | grep -q 'box-wing.obj, exact, 10 x 10 degrees' ||
         fail 'the PDF has no title that can be read'
+    # The contour of 0 is labelled so, not by what sums of steps leave of it.
+    expect 0 plot box.nc -o zero.pdf --map
+    pdftotext zero.pdf words 2> ../log/err
+    grep -q '[0-9]e-' words && fail 'the contour of 0 has a label beside 0'
 else
     skip 'no pdfinfo: the PDF is checked in its ends only'
 fi
