@@ -183,6 +183,15 @@ static int check(const fit_job *job) {
     if (wants(job, "mesh") && options->mesh.count == 0) {
         return cli_usage_error("--normals mesh: which mesh? --mesh MODEL.obj");
     }
+    if (cli_is_given(options->given, FIT_SHADOW) && options->mesh.count == 0) {
+        return cli_usage_error("--shadow: of which shape? --mesh MODEL.obj");
+    }
+    if (cli_is_given(options->given, FIT_UNIT) && options->mesh.count == 0) {
+        return cli_usage_error("--unit is that of --mesh MODEL.obj");
+    }
+    if (cli_is_given(options->given, FIT_MASS) && options->gmat == NULL) {
+        return cli_usage_error("--mass is for --gmat FILE");
+    }
     if (file && cli_is_given(options->given, FIT_PLATES)) {
         return cli_usage_error("--plates: --normals %s says how many", options->normals);
     }
@@ -506,6 +515,10 @@ static void write_residuals(FILE *out, const fit_job *job) {
 static void write_gmat(FILE *out, const fit_job *job, const char *about) {
     const srp_table_info *info = srp_table_get_info(job->table);
     double mass = cli_is_given(job->options->given, FIT_MASS) ? job->options->mass : info->mass;
+    if (!isfinite(mass)) {
+        cli_say("warning: %s lacks the mass (DryMass): the table states none; --mass KG",
+                job->options->gmat);
+    }
     cli_plates_write_gmat(out, job->fit.plates, job->fit.count, about, mass, info->light);
 }
 

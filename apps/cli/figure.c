@@ -36,7 +36,7 @@ static const format *format_of(const char *path) {
     size_t length = strlen(path);
     for (size_t k = 0; k < sizeof FORMATS / sizeof FORMATS[0]; ++k) {
         size_t size = strlen(FORMATS[k].ending);
-        if (length > size && strcmp(path + length - size, FORMATS[k].ending) == 0) {
+        if (length > size && cli_same_letters(path + length - size, FORMATS[k].ending)) {
             return &FORMATS[k];
         }
     }

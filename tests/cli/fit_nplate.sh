@@ -67,6 +67,7 @@ else
     skip 'no GMAT (GMAT_CONSOLE): its script is checked in its text only'
 fi
 expect 0 fit-nplate fitted.nc --plates 6 --gmat massless.script
+says 'massless.script lacks the mass (DryMass)'
 ! grep -q DryMass massless.script || fail 'a mass out of nowhere'
 expect 0 fit-nplate fitted.nc --plates 6 --gmat heavy.script --mass 12.5
 grep -qx 'Sat.DryMass = 12.5;' heavy.script || fail 'the mass is not taken'
@@ -103,6 +104,12 @@ expect 0 fit-nplate good.nc --normals near.txt
 printf '1 0 0\n' > one.txt
 expect 2 fit-nplate good.nc --normals one.txt --plates 3
 says '--normals one.txt says how many'
+expect 2 fit-nplate good.nc --shadow 0.1
+says '--shadow: of which shape? --mesh MODEL.obj'
+expect 2 fit-nplate good.nc --unit mm
+says '--unit is that of --mesh MODEL.obj'
+expect 2 fit-nplate good.nc --mass 3
+says '--mass is for --gmat FILE'
 expect 2 fit-nplate good.nc --normals mesh
 says '--mesh MODEL.obj'
 expect 1 fit-nplate good.nc --normals none.txt

@@ -168,10 +168,20 @@ says 'a.jpg: unknown ending (formats of figures: .png, .svg, .pdf)'
 expect 2 plot box.nc -o .png
 expect 3 plot box.nc -o none/a.png
 says 'none/a.png: cannot write'
-for view in 30 30,91 30,-1 x,3 400,10; do
+for view in 30 30,86 30,-1 x,3 400,10; do
     expect 2 plot box.nc -o x.png --view "$view"
     says "--view $view: expected AZ,EL"
 done
+expect 2 plot box.nc -o x.png --width 599
+says 'a whole number from 600 to 10000'
+expect 2 plot box.nc -o x.png --title "$(printf 'bad\xff')"
+says '--title: byte 4 is not UTF-8'
+for control in '\n' '\t' '\x7f'; do
+    expect 2 plot box.nc -o x.png --title "$(printf "a${control}b")"
+    says '--title: byte 2 is a control character'
+done
+expect 0 plot box.nc -o UPPER.PNG
+cmp -s UPPER.PNG a.png || fail 'an ending in capitals draws another picture'
 expect 2 plot box.nc -o x.png --map --view 30,30
 says '--view is for surfaces'
 expect 2 plot box.nc -o x.png --width 20
