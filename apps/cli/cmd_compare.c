@@ -42,7 +42,7 @@ static const cli_option OPTIONS[COMPARE_OPTION_COUNT] = {
                       .range = &CLI_POSITIVE},
     [COMPARE_FLUX] = {.name = "flux",
                       .value = "W/M2",
-                      .help = "Solar flux at 1 AU, for accelerations. Default: what A states.",
+                      .help = "Solar flux at 1 au, for accelerations. Default: what A states.",
                       .set = cli_set_number,
                       .offset = offsetof(compare_options, flux),
                       .range = &CLI_POSITIVE},
@@ -132,7 +132,7 @@ static void print_text(const comparison *c) {
     print_rows(&c->found.difference, 1.0, unit, c->options->moment ? "m^6" : "m^4");
     print_relative(&c->found.difference);
     if (!c->options->moment && !isnan(c->mass)) {
-        printf("\nAccelerations of %g kg, 1 AU from the Sun, %g W/m^2:\n", c->mass, c->light.flux);
+        printf("\nAccelerations of %g kg, 1 au from the Sun, %g W/m^2:\n", c->mass, c->light.flux);
         print_rows(&c->found.difference, acceleration_factor(c), "m/s^2", "m^2/s^4");
     }
 }
@@ -254,6 +254,12 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (operands.count != 2) {
         return cli_usage_error("expected two tables, A and B, found %zu", operands.count);
     }
+    if (figure.output == NULL && figure.given != 0) {
+        return cli_usage_error("--map, --view and --width are for a figure: -o FIG");
+    }
+    if (figure.map && cli_is_given(figure.given, FIGURE_VIEW)) {
+        return cli_usage_error("--view is for surfaces, --map draws none");
+    }
     const srp_interp_scheme *scheme = srp_interp_find(options.interpolation);
     if (scheme == NULL) {
         return cli_usage_error("--interpolation %s: expected bilinear, bicubic or spline",
@@ -276,8 +282,10 @@ const cli_command cli_command_compare = {
         "Prints the difference B - A for each component, for the length of the force, and as a "
         "vector: mean square, root mean square, mean, and the largest value with its direction, in "
         "m^2, relative to the mean length of A, and in m/s^2 when the mass is known.\n\n"
-        "Tables of different grids are compared at the nodes of the finer; the other is "
-        "interpolated, and what that misses is part of the difference. Means are over the sphere: "
+        "Tables of different grids are compared at the nodes of the finer, which is the one with "
+        "more "
+        "nodes; the other is interpolated, and what that misses is part of the difference. Means "
+        "are over the sphere: "
         "each direction counts by its solid angle. With -o the difference is drawn.",
     .examples = "srp compare exact.nc plates.nc\n"
                 "srp compare exact.nc plates.nc --mass 850 -o difference.png\n"

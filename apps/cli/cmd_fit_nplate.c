@@ -12,6 +12,8 @@
 #include "table_input.h"
 #include "text_file.h"
 
+#include <srp/const.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,6 +40,8 @@ typedef struct fit_options {
     uint32_t plates;
     double metres_per_unit, shadow, mass;
 } fit_options;
+
+static const double NEARLY_EQUAL = 0.017; /* sine of the angle between normals: one degree */
 
 enum { PLATES_AUTO = 8 };
 
@@ -75,7 +79,7 @@ static const cli_option OPTIONS[FIT_OPTION_COUNT] = {
     [FIT_PLATES] = {.name = "plates",
                     .value = "N",
                     .help = "How many plates to look for. Default: 8; with 'mesh' as many as have "
-                            "95 % of the area.",
+                            "95 % of the area, or fewer where those cannot be told apart.",
                     .set = cli_set_count,
                     .offset = offsetof(fit_options, plates),
                     .range = &PLATE_COUNT},
@@ -180,6 +184,15 @@ static int check(const fit_job *job) {
     if (wants(job, "mesh") && options->mesh.count == 0) {
         return cli_usage_error("--normals mesh: which mesh? --mesh MODEL.obj");
     }
+    if (cli_is_given(options->given, FIT_SHADOW) && options->mesh.count == 0) {
+        return cli_usage_error("--shadow: of which shape? --mesh MODEL.obj");
+    }
+    if (cli_is_given(options->given, FIT_UNIT) && options->mesh.count == 0) {
+        return cli_usage_error("--unit is that of --mesh MODEL.obj");
+    }
+    if (cli_is_given(options->given, FIT_MASS) && options->gmat == NULL) {
+        return cli_usage_error("--mass is for --gmat FILE");
+    }
     if (file && cli_is_given(options->given, FIT_PLATES)) {
         return cli_usage_error("--plates: --normals %s says how many", options->normals);
     }
@@ -250,6 +263,83 @@ static int load(fit_job *job) {
 
 /* ---- the fit ---- */
 
+static cli_fit_status solve(fit_job *job) {
+    return cli_plate_fit_solve(&job->samples, job->normals.normal, job->normals.count, &job->fit);
+}
+
+/* The mesh may have more normals than the directions can tell apart: unless the user wants a
+ * number, those of the smallest faces are left out. */
+static cli_fit_status solve_fewer(fit_job *job) {
+    size_t all = job->normals.count;
+    cli_fit_status status = solve(job);
+    bool chosen = !wants(job, "mesh") || cli_is_given(job->options->given, FIT_PLATES);
+    while (!chosen && job->normals.count > 1 &&
+           (status == CLI_FIT_AMBIGUOUS || status == CLI_FIT_TOO_FEW)) {
+        size_t count = job->normals.count;
+        job->normals.count = count - 1 - count / 16;
+        status = solve(job);
+    }
+    if (status == CLI_FIT_DONE && job->normals.count < all) {
+        cli_say("warning: the %zu normals of the mesh cannot be told apart in these directions: "
+                "the %zu with the most area are taken (--plates N chooses)",
+                all, job->normals.count);
+        snprintf(job->normals.words, sizeof job->normals.words, "of the mesh, those of most area");
+    }
+    return status;
+}
+
+/* Nothing of this plate is left but rounding. */
+static bool is_dust(const fit_job *job, size_t plate) {
+    double largest = 0.0;
+    for (size_t k = 0; k < job->fit.count; ++k) {
+        largest = fmax(largest, job->fit.plates[k].area);
+    }
+    return !(job->fit.plates[plate].area > 1e-10 * largest);
+}
+
+/* Plates that were looked for and got no area are left out; normals of a file stay as given. */
+static cli_fit_status drop_dust(fit_job *job) {
+    size_t kept = 0;
+    for (size_t k = 0; k < job->fit.count; ++k) {
+        if (!is_dust(job, k)) {
+            job->normals.normal[kept++] = job->normals.normal[k];
+        }
+    }
+    if (kept == 0 || kept == job->fit.count) {
+        return CLI_FIT_DONE;
+    }
+    cli_say("%zu of %zu plates got no area and are left out", job->fit.count - kept,
+            job->fit.count);
+    job->normals.count = kept;
+    cli_plate_fit_free(&job->fit);
+    job->fit = (cli_plate_fit){.count = 0};
+    return solve(job);
+}
+
+static void warn_of_vague(const fit_job *job) {
+    size_t vague = 0;
+    double near = 1.0;
+    for (size_t k = 0; k < job->fit.count; ++k) {
+        vague += !is_dust(job, k) &&
+                 cli_plate_fit_sigma(&job->fit, k, CLI_FIT_AREA) > job->fit.plates[k].area;
+        for (size_t m = 0; m < k; ++m) {
+            near = fmin(near, srp_vec3_norm(srp_vec3_cross(job->fit.plates[k].normal,
+                                                           job->fit.plates[m].normal)) +
+                                  (srp_vec3_dot(job->fit.plates[k].normal,
+                                                job->fit.plates[m].normal) < 0.0));
+        }
+    }
+    if (vague > 0) {
+        cli_say("warning: the areas of %zu of %zu plates are not determined (+- exceeds them); "
+                "fewer plates are: --plates N",
+                vague, job->fit.count);
+    }
+    if (near < NEARLY_EQUAL) {
+        cli_say("warning: some normals are within %.2g degrees of each other; one plate would do",
+                asin(near) / SRP_RAD_PER_DEG);
+    }
+}
+
 static int fit(fit_job *job) {
     int status;
     if (wants(job, "auto")) {
@@ -266,19 +356,31 @@ static int fit(fit_job *job) {
     if (status != CLI_DONE) {
         return status;
     }
-    return cli_table_fit(job->path, &job->samples, job->normals.count, job->normals.normal,
-                         &job->fit);
+    cli_fit_status solved = solve_fewer(job);
+    if (solved == CLI_FIT_DONE && (wants(job, "auto") || wants(job, "mesh"))) {
+        solved = drop_dust(job);
+    }
+    if (solved == CLI_FIT_DONE) {
+        warn_of_vague(job);
+    }
+    return cli_table_explain(job->path, &job->samples, solved, job->normals.count);
 }
 
 /* ---- output ---- */
+
+/* What five digits show as -0.00000 is 0. */
+static double unsigned_zero(double value) {
+    return fabs(value) < 5e-6 ? 0.0 : value;
+}
 
 static void print_plates(const fit_job *job) {
     printf("\n%9s %9s %9s %12s %9s %8s %8s %8s %8s\n", "n_x", "n_y", "n_z", "area [m^2]", "+-",
            "rho_s", "+-", "rho_d", "+-");
     for (size_t k = 0; k < job->fit.count; ++k) {
         const srp_plate *plate = &job->fit.plates[k];
-        printf("%9.5f %9.5f %9.5f %12.6g %9.2g %8.4f %8.2g %8.4f %8.2g\n", plate->normal.x,
-               plate->normal.y, plate->normal.z, plate->area,
+        printf("%9.5f %9.5f %9.5f %12.6g %9.2g %8.4f %8.2g %8.4f %8.2g\n",
+               unsigned_zero(plate->normal.x), unsigned_zero(plate->normal.y),
+               unsigned_zero(plate->normal.z), plate->area,
                cli_plate_fit_sigma(&job->fit, k, CLI_FIT_AREA), plate->optics.rho_s,
                cli_plate_fit_sigma(&job->fit, k, CLI_FIT_RHO_S), plate->optics.rho_d,
                cli_plate_fit_sigma(&job->fit, k, CLI_FIT_RHO_D));
@@ -364,6 +466,10 @@ static void write_residuals(FILE *out, const fit_job *job) {
 static void write_gmat(FILE *out, const fit_job *job, const char *about) {
     const srp_table_info *info = srp_table_get_info(job->table);
     double mass = cli_is_given(job->options->given, FIT_MASS) ? job->options->mass : info->mass;
+    if (!isfinite(mass)) {
+        cli_say("warning: %s lacks the mass (DryMass): the table states none; --mass KG",
+                job->options->gmat);
+    }
     cli_plates_write_gmat(out, job->fit.plates, job->fit.count, about, mass, info->light);
 }
 

@@ -60,7 +60,7 @@ static const cli_option OPTIONS[FORCE_OPTION_COUNT] = {
                         .range = &CLI_POSITIVE},
     [FORCE_FLUX] = {.name = "flux",
                     .value = "W/M2",
-                    .help = "Solar flux at 1 AU. Default: 1367.",
+                    .help = "Solar flux at 1 au. Default: 1367.",
                     .set = cli_set_number,
                     .offset = offsetof(force_options, flux),
                     .range = &CLI_POSITIVE},
@@ -102,7 +102,7 @@ static void print_vector(const char *label, srp_vec3 v, const char *unit) {
 static void print_physical(const force_result *result) {
     const force_options *options = result->options;
     double p = result->pressure;
-    printf("\nAt %g AU from the Sun, P = %.9e N/m^2 (%g W/m^2 at 1 AU):\n", options->distance_au, p,
+    printf("\nAt %g au from the Sun, P = %.9e N/m^2 (%g W/m^2 at 1 au):\n", options->distance_au, p,
            options->flux);
     print_vector("force F", srp_vec3_scale(p, result->response.f), "N");
     if (has(result, SRP_METHOD_MOMENT)) {

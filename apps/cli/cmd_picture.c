@@ -7,6 +7,7 @@
 #include "numbers.h"
 #include "picture.h"
 #include "system.h"
+#include "utf8.h"
 
 #include <srp/sunlight.h>
 #include <srp/table.h>
@@ -125,7 +126,8 @@ static const cli_option OPTIONS[PICTURE_OPTION_COUNT] = {
                       .offset = offsetof(picture_options, view)},
     [PICTURE_SIZE] = {.name = "size",
                       .value = "WxH",
-                      .help = "Width and height in pixels. Default: 1600x900.",
+                      .help =
+                          "Width and height in pixels, each from 300 to 5000. Default: 1600x900.",
                       .set = set_size,
                       .offset = offsetof(picture_options, size)},
     [PICTURE_TITLE] = {.name = "title",
@@ -144,13 +146,13 @@ static const cli_option OPTIONS[PICTURE_OPTION_COUNT] = {
 };
 
 static const cli_group PICTURE = {"Picture", OPTIONS, PICTURE_OPTION_COUNT};
-static const cli_group *const GROUPS[] = {&PICTURE, &cli_group_model};
+static const cli_group *const GROUPS[] = {&PICTURE, &cli_group_shape};
 
 /* ---- before the work ---- */
 
 static bool ends_with_png(const char *path) {
     size_t length = strlen(path);
-    return length > 4 && strcmp(path + length - 4, ".png") == 0;
+    return length > 4 && cli_same_letters(path + length - 4, ".png");
 }
 
 static int check_output(const char *path, const cli_operands *operands) {
@@ -170,8 +172,7 @@ static int check_output(const char *path, const cli_operands *operands) {
     return cli_portrait_check();
 }
 
-static int check(const picture_options *options, const cli_model_options *model,
-                 const cli_operands *operands) {
+static int check(const picture_options *options, const cli_operands *operands) {
     if (operands->count == 0) {
         return cli_usage_error("expected one model or more: MODEL.obj");
     }
@@ -180,9 +181,6 @@ static int check(const picture_options *options, const cli_model_options *model,
     }
     if (!cli_is_given(options->given, PICTURE_AZ) || !cli_is_given(options->given, PICTURE_EL)) {
         return cli_usage_error("the direction of the Sun is missing: --az DEG --el DEG");
-    }
-    if (model->plates != NULL) {
-        return cli_usage_error("--plates: plates have no shape that could be drawn");
     }
     return check_output(options->output, operands);
 }
@@ -247,7 +245,7 @@ static int picture(picture_options *options, const cli_model_options *model_opti
     cli_model model;
     cli_method_options how = cli_method_options_default();
     srp_method_params params = srp_method_params_default();
-    int status = check(options, model_options, operands);
+    int status = check(options, operands);
     if (status == CLI_DONE) {
         status = cli_model_load(model_options, &how, operands, &srp_method_exact, &params, &model);
     }

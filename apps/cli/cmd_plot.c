@@ -30,7 +30,7 @@ static const cli_option OPTIONS[PLOT_OPTION_COUNT] = {
     [PLOT_TITLE] = {.name = "title",
                     .value = "TEXT",
                     .help = "Title of the figure. Default: what the table says of itself.",
-                    .set = cli_set_text,
+                    .set = cli_set_title,
                     .offset = offsetof(plot_options, title)},
 };
 

@@ -36,7 +36,7 @@ static const format *format_of(const char *path) {
     size_t length = strlen(path);
     for (size_t k = 0; k < sizeof FORMATS / sizeof FORMATS[0]; ++k) {
         size_t size = strlen(FORMATS[k].ending);
-        if (length > size && strcmp(path + length - size, FORMATS[k].ending) == 0) {
+        if (length > size && cli_same_letters(path + length - size, FORMATS[k].ending)) {
             return &FORMATS[k];
         }
     }
@@ -72,6 +72,14 @@ int cli_figure_check(const cli_figure_options *options, const char *const *input
     }
     if (!cli_system_can_write(path, &reason)) {
         cli_say_of_file("%s: cannot write: %s", path, reason);
+        return CLI_MACHINE_FAILED;
+    }
+    /* PLplot goes back and forth in what it writes, and its end is looked at. */
+    bool special;
+    char *target = cli_system_write_target(path, &special);
+    free(target);
+    if (special) {
+        fprintf(stderr, "%s: cannot write: a figure needs a regular file\n", path);
         return CLI_MACHINE_FAILED;
     }
     if (!has_device(kind->device)) {
@@ -321,15 +329,19 @@ static void open_page(const cli_figure_options *options, const cli_picture *pict
 
 int cli_figure_write(const cli_figure_options *options, const cli_picture *picture) {
     const format *kind = format_of(options->output);
-    char *const part = cli_part_name(options->output);
+    bool special;
+    char *const target = cli_system_write_target(options->output, &special);
+    char *const part = target != NULL ? cli_part_name(target) : NULL;
     if (part == NULL) {
         cli_say("no memory for the figure");
+        free(target);
         return CLI_MACHINE_FAILED;
     }
     FILE *probe = fopen(part, "wb"); /* PLplot asks for another name */
     if (probe == NULL) {
         cli_say_of_file("%s: cannot write: %s", options->output, strerror(errno));
         free(part);
+        free(target);
         return CLI_MACHINE_FAILED;
     }
     fclose(probe);
@@ -349,8 +361,9 @@ int cli_figure_write(const cli_figure_options *options, const cli_picture *pictu
         cli_say_of_file("%s: the figure could not be written", options->output);
         remove(part);
     } else {
-        status = cli_part_rename(part, options->output);
+        status = cli_part_rename(part, target);
     }
     free(part);
+    free(target);
     return status;
 }

@@ -77,17 +77,26 @@ static void draw_line(double from, double to, double fixed, bool meridian, bool 
     plline(POINTS, x, y);
 }
 
-/* Azimuths on the equator, each on a scrap of paper, and elevations beside the rim. */
+/* A number with a thin rim of paper, so that nothing but its strokes is hidden. */
+static void put_halo(double x, double y, const char *text) {
+    enum { AROUND = 12 };
+    const double reach = 0.9; /* in degrees of the map */
+    plcol0(INK_PAPER);
+    for (int k = 0; k < AROUND; ++k) {
+        double turn = 2.0 * SRP_PI * k / AROUND;
+        plptex(x + 2.0 * reach * cos(turn), y + reach * sin(turn), 1.0, 0.0, 0.5, text);
+    }
+    plcol0(INK_BLACK);
+    plptex(x, y, 1.0, 0.0, 0.5, text);
+}
+
+/* Azimuths on the equator and elevations beside the rim. */
 static void label_ellipse(void) {
     char text[8];
     plschr(0.0, 0.85);
     for (int az = -90; az <= 90; az += 90) {
-        const PLFLT x[4] = {az - 16.0, az + 16.0, az + 16.0, az - 16.0}, y[4] = {-7, -7, 7, 7};
-        plcol0(INK_PAPER);
-        plfill(4, x, y);
-        plcol0(INK_BLACK);
         snprintf(text, sizeof text, "%d", az);
-        plptex(az, 0.0, 1.0, 0.0, 0.5, text);
+        put_halo(az, 0.0, text);
     }
     for (int el = -45; el <= 45; el += 90) {
         double x, y;
@@ -121,18 +130,33 @@ static void draw_frame(const char *name, bool mollweide) {
     plmtex("t", 1.5, 0.5, 0.5, name);
 }
 
+/* Does the field go up and down from node to node over a good part of a step of contours? */
+static bool is_restless(const map *m, cli_scale scale) {
+    double step = cli_figure_step(scale.high - scale.low, LINES), bends = 0.0;
+    for (PLINT j = 1; j + 1 < m->ny; ++j) {
+        for (PLINT i = 1; i + 1 < m->nx; ++i) {
+            double before = m->z[i][j] - m->z[i - 1][j], after = m->z[i + 1][j] - m->z[i][j];
+            bends += before * after < 0.0 && fmin(fabs(before), fabs(after)) > 0.02 * step;
+        }
+    }
+    return bends > 0.1 * (double)(m->nx - 2) * (double)(m->ny - 2);
+}
+
 static void draw_contours(const map *m, cli_scale scale) {
     PLFLT level[4 * LINES];
     double step = cli_figure_step(scale.high - scale.low, LINES);
     PLINT count = 0;
-    for (double at = ceil(scale.low / step) * step; at <= scale.high && count < 4 * LINES;
-         at += step) {
-        level[count++] = at;
+    /* By whole numbers of steps: sums of them would miss 0 by rounding, and be labelled so. */
+    for (double k = ceil(scale.low / step); k * step <= scale.high && count < 4 * LINES; ++k) {
+        level[count++] = k == 0.0 ? 0.0 : k * step;
     }
     plcol0(INK_BLACK);
     plwidth(0.6);
     pl_setcontlabelformat(4, 3);
-    pl_setcontlabelparam(0.008, 0.6, 0.1, 1);
+    /* A contour that is as restless as noise is a tangle with labels: without. */
+    bool tangle = is_restless(m, scale);
+    pl_setcontlabelparam(0.008, 0.6, 0.1, !tangle);
+    plwidth(tangle ? 0.2 : 0.6);
     plcont((PLFLT_MATRIX)m->z, m->nx, m->ny, 1, m->nx, 1, m->ny, level, count, pltr2,
            (PLPointer)&m->at);
     plwidth(1.0);

@@ -7,9 +7,9 @@
 static bool set_view(const cli_option *option, void *target, const char *text) {
     double value[2];
     if (!cli_read_numbers(text, 2, value) || value[0] < -360.0 || value[0] > 360.0 ||
-        value[1] < 0.0 || value[1] > 90.0) {
+        value[1] < 0.0 || value[1] > 85.0) {
         return cli_reject(option, text,
-                          "AZ,EL: degrees from -360 to 360 and from 0 to 90, with a comma");
+                          "AZ,EL: degrees from -360 to 360 and from 0 to 85, with a comma");
     }
     double *view = (double *)(void *)((char *)target + option->offset);
     view[0] = value[0];
@@ -17,7 +17,7 @@ static bool set_view(const cli_option *option, void *target, const char *text) {
     return true;
 }
 
-static const cli_range WIDTH = {400, 10000, "a whole number from 400 to 10000"};
+static const cli_range WIDTH = {600, 10000, "a whole number from 600 to 10000"};
 
 static const cli_option OPTIONS[FIGURE_OPTION_COUNT] = {
     [FIGURE_OUTPUT] = {.name = "output",
@@ -38,15 +38,17 @@ static const cli_option OPTIONS[FIGURE_OPTION_COUNT] = {
     [FIGURE_VIEW] = {.name = "view",
                      .value = "AZ,EL",
                      .help = "Where surfaces are looked at from, in degrees: turned by AZ, from EL "
-                             "above. Default: 210,35.",
+                             "above, at most 85. Default: 210,35.",
                      .set = set_view,
                      .offset = offsetof(cli_figure_options, view)},
-    [FIGURE_WIDTH] = {.name = "width",
-                      .value = "PX",
-                      .help = "Width of the figure in pixels; the height follows. Default: 1200.",
-                      .set = cli_set_count,
-                      .offset = offsetof(cli_figure_options, width),
-                      .range = &WIDTH},
+    [FIGURE_WIDTH] =
+        {.name = "width",
+         .value = "PX",
+         .help =
+             "Width of the figure in pixels, from 600 to 10000; the height follows. Default: 1200.",
+         .set = cli_set_count,
+         .offset = offsetof(cli_figure_options, width),
+         .range = &WIDTH},
 };
 
 const cli_group cli_group_figure = {"Figure", OPTIONS, FIGURE_OPTION_COUNT};

@@ -127,7 +127,7 @@ void cli_help_command(FILE *out, const cli_command *command) {
     if (takes(command, "method")) {
         print_methods(out);
     }
-    if (takes(command, "title")) {
+    if (takes(command, "title") && !takes(command, "light")) {
         print_formats(out);
     }
     fputs("\nExamples:\n", out);

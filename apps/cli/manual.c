@@ -174,7 +174,7 @@ void cli_manual_write(FILE *out) {
           "computes the force and the moment of sunlight on a spacecraft from its\n"
           "shape and its optics.\n"
           "Results go to standard output, messages and progress to standard error.\n"
-          "Options may be shortened as long as they stay unambiguous.\n.Sh COMMANDS\n",
+          "Names of options are written in full.\n.Sh COMMANDS\n",
           out);
     for (size_t i = 0; i < count; ++i) {
         put_command(out, commands[i]);

@@ -61,6 +61,8 @@ static const cli_option MODEL_OPTIONS[MODEL_OPTION_COUNT] = {
 };
 
 const cli_group cli_group_model = {"Model", MODEL_OPTIONS, MODEL_OPTION_COUNT};
+/* Its last option is --plates. */
+const cli_group cli_group_shape = {"Model", MODEL_OPTIONS, MODEL_PLATES};
 
 static const cli_range CELLS = {1.0, 32768.0, "a whole number from 1 to 32768"};
 static const cli_range REFLECTIONS = {0.0, 100.0, "a whole number from 0 to 100"};

@@ -52,6 +52,8 @@ typedef struct cli_method_options {
 } cli_method_options;
 
 extern const cli_group cli_group_model, cli_group_method;
+/* The model's without --plates, for what needs a shape. */
+extern const cli_group cli_group_shape;
 
 /* Setter: metres in a unit of length, a double. */
 bool cli_set_unit(const cli_option *option, void *target, const char *text);

@@ -39,6 +39,12 @@ bool cli_set_title(const cli_option *option, void *target, const char *text) {
         cli_usage_error("--%s: byte %zu is not UTF-8", option->name, bad + 1);
         return false;
     }
+    for (size_t k = 0; text[k] != '\0'; ++k) {
+        if ((unsigned char)text[k] < 0x20 || text[k] == 0x7f) {
+            cli_usage_error("--%s: byte %zu is a control character", option->name, k + 1);
+            return false;
+        }
+    }
     return cli_set_text(option, target, text);
 }
 

@@ -236,10 +236,15 @@ static int render(const cli_portrait *portrait, studio *s) {
     const char *device = portrait->device != NULL ? portrait->device : ANY[0];
     srp_status status =
         srp_render_offscreen(device, portrait->scene, s->view, CLI_PANELS, s->pixels, &error);
-    if (status == SRP_NO_DEVICE && portrait->device == NULL &&
-        srp_render_offscreen(ANY[1], portrait->scene, s->view, CLI_PANELS, s->pixels, &second) ==
-            SRP_OK) {
-        status = SRP_OK;
+    if (status == SRP_NO_DEVICE && portrait->device == NULL) {
+        status =
+            srp_render_offscreen(ANY[1], portrait->scene, s->view, CLI_PANELS, s->pixels, &second);
+        if (status == SRP_NO_DEVICE) {
+            cli_say("%s: %s", ANY[0], error.message);
+            cli_say("%s: %s", ANY[1], second.message);
+            return CLI_MACHINE_FAILED;
+        }
+        error = second;
     }
     if (status == SRP_NOT_FOUND) {
         return cli_usage_error(

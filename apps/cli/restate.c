@@ -17,7 +17,7 @@ static const cli_option OPTIONS[RESTATE_OPTION_COUNT] = {
                       .range = &CLI_POSITIVE},
     [RESTATE_FLUX] = {.name = "flux",
                       .value = "W/M2",
-                      .help = "Solar flux at 1 AU that the output states. Default: that of the "
+                      .help = "Solar flux at 1 au that the output states. Default: that of the "
                               "input.",
                       .set = cli_set_number,
                       .offset = offsetof(cli_restate_options, flux),

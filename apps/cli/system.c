@@ -110,6 +110,14 @@ bool cli_system_can_write(const char *path, const char **reason) {
     return *reason == NULL;
 }
 
+char *cli_system_write_target(const char *path, bool *special) {
+    struct stat about;
+    bool link = lstat(path, &about) == 0 && S_ISLNK(about.st_mode);
+    bool exists = stat(path, &about) == 0;
+    *special = exists ? !S_ISREG(about.st_mode) : link;
+    return link && !*special ? realpath(path, NULL) : strdup(path);
+}
+
 bool cli_system_same_file(const char *a, const char *b) {
     struct stat first, second;
     return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&

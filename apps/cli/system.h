@@ -28,6 +28,10 @@ void cli_system_die_by_signal(int signal_number);
 /* Can `path` be written: is it a file that may be replaced, or a name in a directory that takes new
  * files? On false *reason says why not, in words of the system or our own; a constant string. */
 bool cli_system_can_write(const char *path, const char **reason);
+/* Where a file that is to be called `path` must go: `path`, or what it is a link to; freed by the
+ * caller, NULL without memory. *special: it is no file that another could take the place of (a
+ * device, a pipe, a link to nothing yet), but one to write into. */
+char *cli_system_write_target(const char *path, bool *special);
 /* Are these two names of one file that exists? */
 bool cli_system_same_file(const char *a, const char *b);
 /* Do these two name one place for a file, whether it exists or not: one name in one directory? */

@@ -6,8 +6,8 @@
 
 enum { SEARCH_DIRECTIONS = 800 };
 
-static int explain(const char *name, const cli_samples *samples, cli_fit_status status,
-                   size_t plates) {
+int cli_table_explain(const char *name, const cli_samples *samples, cli_fit_status status,
+                      size_t plates) {
     switch (status) {
     case CLI_FIT_DONE:
         return CLI_DONE;
@@ -23,10 +23,10 @@ static int explain(const char *name, const cli_samples *samples, cli_fit_status 
         return CLI_BAD_INPUT;
     case CLI_FIT_AMBIGUOUS:
     default:
-        cli_say_of_file(
-            "%s: %zu plates cannot be told apart in these directions; fewer plates, or normals "
-            "farther apart, can",
-            name, plates);
+        cli_say_of_file("%s: %zu plates cannot be told apart in these directions; fewer plates "
+                        "(--plates N), or "
+                        "normals farther apart, can",
+                        name, plates);
         return CLI_BAD_INPUT;
     }
 }
@@ -56,10 +56,11 @@ int cli_table_search(const srp_table *table, const char *name, const cli_samples
     }
     cli_fit_status status = cli_plate_normals_search(&few, samples, count, normals);
     cli_samples_free(&few);
-    return explain(name, samples, status, count);
+    return cli_table_explain(name, samples, status, count);
 }
 
 int cli_table_fit(const char *name, const cli_samples *samples, size_t count,
                   const srp_vec3 *normals, cli_plate_fit *out) {
-    return explain(name, samples, cli_plate_fit_solve(samples, normals, count, out), count);
+    return cli_table_explain(name, samples, cli_plate_fit_solve(samples, normals, count, out),
+                             count);
 }

@@ -13,5 +13,8 @@ int cli_table_search(const srp_table *table, const char *name, const cli_samples
  */
 int cli_table_fit(const char *name, const cli_samples *samples, size_t count,
                   const srp_vec3 *normals, cli_plate_fit *out);
+/* Says what a fit of so many plates came to; its exit status. */
+int cli_table_explain(const char *name, const cli_samples *samples, cli_fit_status status,
+                      size_t plates);
 
 #endif

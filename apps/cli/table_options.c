@@ -46,7 +46,7 @@ static const cli_option OPTIONS[TABLE_OPTION_COUNT] = {
                     .range = &CLI_POSITIVE},
     [TABLE_FLUX] = {.name = "flux",
                     .value = "W/M2",
-                    .help = "Solar flux at 1 AU that the outputs state. Default: 1367.",
+                    .help = "Solar flux at 1 au that the outputs state. Default: 1367.",
                     .set = cli_set_number,
                     .offset = offsetof(cli_table_options, flux),
                     .range = &CLI_POSITIVE},

@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "messages.h"
+#include "system.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -34,18 +35,27 @@ int cli_part_rename(const char *part, const char *path) {
     return status;
 }
 
+static void free_names(cli_text_file *file) {
+    free(file->target);
+    free(file->part);
+}
+
 int cli_text_file_begin(cli_text_file *file, const char *path) {
-    file->path = path;
-    file->part = cli_part_name(path);
-    if (file->part == NULL) {
+    bool special;
+    *file = (cli_text_file){.path = path, .target = cli_system_write_target(path, &special)};
+    if (file->target != NULL && !special) {
+        file->part = cli_part_name(file->target);
+    }
+    if (file->target == NULL || (file->part == NULL && !special)) {
         cli_say("no memory");
+        free_names(file);
         return CLI_MACHINE_FAILED;
     }
     errno = 0;
-    file->out = fopen(file->part, "w");
+    file->out = fopen(special ? file->target : file->part, "w");
     if (file->out == NULL) {
         int status = cannot_write(path);
-        free(file->part);
+        free_names(file);
         return status;
     }
     return CLI_DONE;
@@ -57,16 +67,20 @@ int cli_text_file_end(cli_text_file *file) {
     int status = CLI_DONE;
     if (fclose(file->out) != 0 || failed != 0) {
         status = cannot_write(file->path);
-        remove(file->part);
-    } else {
-        status = cli_part_rename(file->part, file->path);
+        if (file->part != NULL) {
+            remove(file->part);
+        }
+    } else if (file->part != NULL) {
+        status = cli_part_rename(file->part, file->target);
     }
-    free(file->part);
+    free_names(file);
     return status;
 }
 
 void cli_text_file_drop(cli_text_file *file) {
     (void)fclose(file->out);
-    remove(file->part);
-    free(file->part);
+    if (file->part != NULL) {
+        remove(file->part);
+    }
+    free_names(file);
 }

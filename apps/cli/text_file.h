@@ -8,10 +8,12 @@
 typedef struct cli_text_file {
     FILE *out;
     const char *path;
-    char *part; /* what is written to meanwhile */
+    char *target; /* where it goes: `path`, or what that is a link to */
+    char *part;   /* what is written to meanwhile; NULL: the target itself, a device or a pipe */
 } cli_text_file;
 
-/* A file beside `path` to write to. An exit status, said if not CLI_DONE. */
+/* A file beside `path` to write to; `path` itself if it is a device or a pipe. An exit status, said
+ * if not CLI_DONE. */
 int cli_text_file_begin(cli_text_file *file, const char *path);
 /* Gives the file its name, or removes it when something could not be written. An exit status, said
  * if not CLI_DONE. */

@@ -33,3 +33,15 @@ void cli_utf8_mend(char *text) {
         *text = '?';
     }
 }
+
+static char small(char letter) {
+    return letter >= 'A' && letter <= 'Z' ? (char)(letter - 'A' + 'a') : letter;
+}
+
+bool cli_same_letters(const char *a, const char *b) {
+    while (*a != '\0' && small(*a) == small(*b)) {
+        ++a;
+        ++b;
+    }
+    return *a == '\0' && *b == '\0';
+}

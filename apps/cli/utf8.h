@@ -3,6 +3,7 @@
 #ifndef SRP_CLI_UTF8_H
 #define SRP_CLI_UTF8_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Bytes of the sequence that begins at `p`, in a string that ends in a 0 byte; 0 when it is none.
@@ -12,5 +13,8 @@ size_t cli_utf8_length(const char *p);
 size_t cli_utf8_find_bad(const char *text);
 /* Puts '?' in place of each such byte: names of files may hold any. */
 void cli_utf8_mend(char *text);
+
+/* Are these the same but for the case of the letters A to Z? */
+bool cli_same_letters(const char *a, const char *b);
 
 #endif

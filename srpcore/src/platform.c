@@ -245,13 +245,8 @@ static srp_status fail_write(srp_error *error, const char *path) {
     return status;
 }
 
-srp_status srp_platform_draft_begin(const char *target, srp_platform_draft *out, srp_error *error) {
-    /* A device or a pipe (/dev/stdout, /dev/full) cannot be renamed over: write it directly. */
-    struct stat about;
-    bool special = stat(target, &about) == 0 && !S_ISREG(about.st_mode);
-    if (special && S_ISDIR(about.st_mode)) {
-        return srp_fail_at(error, SRP_IO, target, 0, 0, "is a directory, expected a file");
-    }
+static srp_status draft_make(const char *target, bool special, srp_platform_draft *out,
+                             srp_error *error) {
     size_t length = strlen(target);
     srp_platform_draft draft = {malloc(length + 32), malloc(length + 1)};
     if (draft.path == NULL || draft.target == NULL) {
@@ -275,6 +270,23 @@ srp_status srp_platform_draft_begin(const char *target, srp_platform_draft *out,
     }
     *out = draft;
     return SRP_OK;
+}
+
+srp_status srp_platform_draft_begin(const char *target, srp_platform_draft *out, srp_error *error) {
+    /* A device or a pipe (/dev/stdout, /dev/full) cannot be renamed over: write it directly. */
+    struct stat about;
+    bool special = stat(target, &about) == 0 && !S_ISREG(about.st_mode);
+    if (special && S_ISDIR(about.st_mode)) {
+        return srp_fail_at(error, SRP_IO, target, 0, 0, "is a directory, expected a file");
+    }
+    /* What a link points to is replaced, not the link. */
+    char *real = NULL;
+    if (!special && lstat(target, &about) == 0 && S_ISLNK(about.st_mode)) {
+        real = realpath(target, NULL);
+    }
+    srp_status status = draft_make(real != NULL ? real : target, special, out, error);
+    free(real);
+    return status;
 }
 
 static void draft_free(srp_platform_draft *draft) {

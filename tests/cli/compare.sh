@@ -64,7 +64,7 @@ prints 'Accelerations of 850 kg'
 expect 0 compare plates.nc exact.txt
 prints_not 'Accelerations'
 expect 0 compare plates.nc exact.txt --mass 12.5 --flux 1361
-prints 'Accelerations of 12.5 kg, 1 AU from the Sun, 1361 W/m^2'
+prints 'Accelerations of 12.5 kg, 1 au from the Sun, 1361 W/m^2'
 
 # Moments.
 expect 0 table "$MODELS/box-wing.obj" -o moved.nc --step 20 --reference 0,0,0.5
@@ -105,4 +105,8 @@ sed '0,/^Azimuth.*/s/ Force(Z)//; s/^\( *[-0-9.]* *[-0-9.]* *[-0-9.e+]* *[-0-9.e
     exact.spo > short.spo
 expect 1 compare exact.nc short.spo
 says 'short.spo'
+for unused in --map '--width=900' '--view=30,30'; do
+    expect 2 compare exact.nc plates.nc "$unused"
+    says 'are for a figure: -o FIG'
+done
 finish

@@ -67,6 +67,7 @@ else
     skip 'no GMAT (GMAT_CONSOLE): its script is checked in its text only'
 fi
 expect 0 fit-nplate fitted.nc --plates 6 --gmat massless.script
+says 'massless.script lacks the mass (DryMass)'
 ! grep -q DryMass massless.script || fail 'a mass out of nowhere'
 expect 0 fit-nplate fitted.nc --plates 6 --gmat heavy.script --mass 12.5
 grep -qx 'Sat.DryMass = 12.5;' heavy.script || fail 'the mass is not taken'
@@ -103,6 +104,12 @@ expect 0 fit-nplate good.nc --normals near.txt
 printf '1 0 0\n' > one.txt
 expect 2 fit-nplate good.nc --normals one.txt --plates 3
 says '--normals one.txt says how many'
+expect 2 fit-nplate good.nc --shadow 0.1
+says '--shadow: of which shape? --mesh MODEL.obj'
+expect 2 fit-nplate good.nc --unit mm
+says '--unit is that of --mesh MODEL.obj'
+expect 2 fit-nplate good.nc --mass 3
+says '--mass is for --gmat FILE'
 expect 2 fit-nplate good.nc --normals mesh
 says '--mesh MODEL.obj'
 expect 1 fit-nplate good.nc --normals none.txt
@@ -142,6 +149,21 @@ says 'the force is 0 from all directions'
 sed 's/^\( *[-0-9.]* *[-0-9.]* *[-0-9.e+]* *[-0-9.e+]*\) .*/\1/' good.spo > short.spo
 expect 1 fit-nplate short.spo
 says 'short.spo'
+# As many plates of a mesh as can be told apart; more on request are refused with what helps.
+expect 0 table "$MODELS/dish.obj" -o dish.nc --step 20
+expect 0 fit-nplate dish.nc --mesh "$MODELS/dish.obj" -o dish.plates
+says 'cannot be told apart in these directions: the'
+says '(--plates N chooses)'
+prints_not '-0.00000'
+expect 1 fit-nplate dish.nc --mesh "$MODELS/dish.obj" --plates 54
+says '(--plates N)'
+expect 0 table "$MODELS/gnss.obj" -o gnss.nc --step 15
+expect 0 fit-nplate gnss.nc --mesh "$MODELS/gnss.obj"
+says 'plates are not determined (+- exceeds them)'
+printf '1 0 0\n0.99999 0.004 0\n-1 0 0\n' > close.txt
+expect 0 fit-nplate good.nc --normals close.txt
+says 'one plate would do'
+rm -f dish.plates
 # A table that is not complete.
 for grid in 512 2048 8192 32768; do
     timeout --foreground -s INT 0.3 "$SRP" table "$MODELS/box-wing.obj" -o t.nc --step 10 \

@@ -75,7 +75,7 @@ prints 'area vector f      -6.266666667e+00'
 prints '(no sampling)'
 prints 'torque T'
 prints 'acceleration a'
-prints '1367 W/m^2 at 1 AU'
+prints '1367 W/m^2 at 1 au'
 
 # Raycast: every option of the lattice; the error is an estimate; the seed is part of the result.
 expect 0 force "$MODELS/box-wing.obj" --az 20 --el 35 --json

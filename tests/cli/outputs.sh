@@ -73,6 +73,47 @@ else
     skip 'srp does not run with a limit on the size of files'
 fi
 
+# What a link points to is written, and a pipe is written into: neither is replaced by a file.
+expect 0 table "$MODELS/box-wing.obj" --step 15 -o t.nc
+for output in --output --residuals --gmat; do
+    mkfifo pipe
+    timeout 60 cat pipe > got &
+    reader=$!
+    expect 0 fit-nplate t.nc --plates 6 "$output" pipe
+    [ -p pipe ] || fail "$output replaced a pipe"
+    [ -p pipe ] || kill "$reader"
+    wait "$reader"
+    [ -s got ] || fail "$output wrote nothing into a pipe"
+    echo old > real
+    ln -s real link
+    expect 0 fit-nplate t.nc --plates 6 "$output" link
+    [ -L link ] || fail "$output replaced a link"
+    cmp -s got real || fail "$output: a link and a pipe differ"
+    rm pipe got link real
+done
+echo old > real
+ln -s real link.spo
+expect 0 convert t.nc link.spo --mass 10
+[ -L link.spo ] || fail 'a table replaced a link'
+grep -q '^Motion' real || fail 'a table was not written through a link'
+rm real link.spo
+if "$SRP" plot t.nc -o a.png > ../log/out 2> ../log/err; then
+    echo old > real
+    ln -s real link.png
+    expect 0 plot t.nc -o link.png
+    [ -L link.png ] || fail 'a figure replaced a link'
+    cmp -s a.png real || fail 'a figure was not written through a link'
+    mkfifo pipe.png
+    expect 3 plot t.nc -o pipe.png
+    says 'pipe.png: cannot write: a figure needs a regular file'
+    [ -p pipe.png ] || fail 'a figure replaced a pipe'
+    rm a.png real link.png pipe.png
+else
+    skip 'no figures'
+fi
+rm t.nc
+holds
+
 # An old file stays as it was until the new one is whole; then it is replaced.
 echo old > a.spo
 expect 1 table none.obj -o a.spo

@@ -139,8 +139,11 @@ done
 expect 2 picture "$MODELS/cube.obj" --az 1 --el 1 -o x.png --light dark
 says 'expected material, incidence or force'
 expect 2 picture "$MODELS/cube.obj" --az 1 --el 1 -o x.png --title "$(printf 'a\xff')"
+expect 0 picture --help
+prints_not --plates
+prints_not "Formats of tables"
 expect 2 picture "$MODELS/cube.obj" --az 1 --el 1 -o x.png --plates "$MODELS/cube.plates"
-says 'plates have no shape'
+says "unknown option '--plates'"
 expect 2 picture "$MODELS/cube.obj" --az 1 --el 1 -o x.png --device gpu
 says '--device gpu: expected'
 GALLIUM_DRIVER=nonesuch expect 3 picture "$MODELS/cube.obj" --az 1 --el 1 -o x.png --device gl:osmesa

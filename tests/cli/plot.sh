@@ -95,6 +95,10 @@ if command -v pdfinfo > /dev/null; then
     grep -q '^Pages: *1$' info || fail 'the PDF has not one page'
     pdftotext a.pdf - 2> ../log/err | grep -q 'box-wing.obj, exact, 10 x 10 degrees' ||
         fail 'the PDF has no title that can be read'
+    # The contour of 0 is labelled so, not by what sums of steps leave of it.
+    expect 0 plot box.nc -o zero.pdf --map
+    pdftotext zero.pdf words 2> ../log/err
+    grep -q '[0-9]e-' words && fail 'the contour of 0 has a label beside 0'
 else
     skip 'no pdfinfo: the PDF is checked in its ends only'
 fi
@@ -164,14 +168,24 @@ says 'a.jpg: unknown ending (formats of figures: .png, .svg, .pdf)'
 expect 2 plot box.nc -o .png
 expect 3 plot box.nc -o none/a.png
 says 'none/a.png: cannot write'
-for view in 30 30,91 30,-1 x,3 400,10; do
+for view in 30 30,86 30,-1 x,3 400,10; do
     expect 2 plot box.nc -o x.png --view "$view"
     says "--view $view: expected AZ,EL"
 done
+expect 2 plot box.nc -o x.png --width 599
+says 'a whole number from 600 to 10000'
+expect 2 plot box.nc -o x.png --title "$(printf 'bad\xff')"
+says '--title: byte 4 is not UTF-8'
+for control in '\n' '\t' '\x7f'; do
+    expect 2 plot box.nc -o x.png --title "$(printf "a${control}b")"
+    says '--title: byte 2 is a control character'
+done
+expect 0 plot box.nc -o UPPER.PNG
+cmp -s UPPER.PNG a.png || fail 'an ending in capitals draws another picture'
 expect 2 plot box.nc -o x.png --map --view 30,30
 says '--view is for surfaces'
 expect 2 plot box.nc -o x.png --width 20
-says 'a whole number from 400 to 10000'
+says 'a whole number from 600 to 10000'
 expect 1 plot plates.nc -o x.png --moment
 says 'plates.nc: holds no moments'
 expect 1 plot box.spo -o x.png --error

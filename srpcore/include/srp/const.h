@@ -12,7 +12,7 @@
 /* Astronomical unit [m], exact (IAU 2012 Resolution B2). */
 #define SRP_AU 149597870700.0
 
-/* Default solar flux at 1 AU [W/m^2]: the value of AAS 20-481 and of GMAT (FM.SRP.Flux). */
+/* Default solar flux at 1 au [W/m^2]: the value of AAS 20-481 and of GMAT (FM.SRP.Flux). */
 #define SRP_SOLAR_FLUX 1367.0
 
 /* Radius of the Sun [m], nominal (IAU 2015 Resolution B3). */

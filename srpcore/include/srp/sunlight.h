@@ -20,7 +20,7 @@
 SRP_BEGIN_DECLS
 
 typedef struct srp_sunlight {
-    double flux; /* solar flux at 1 AU, P0 [W/m^2] > 0 */
+    double flux; /* solar flux at 1 au, P0 [W/m^2] > 0 */
     double au;   /* astronomical unit [m] > 0 */
 } srp_sunlight;
 
