@@ -20,6 +20,13 @@ paste -d ' ' "$1" "$2" | tr -s ' \t' ' ' | sed 's/^ //' | awk -v a="$1" -v b="$2
             bad = 1
             exit 1
         }
+        for (i = 1; i <= NF; ++i) {
+            if ($i !~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/) {
+                printf "%s and %s: row %d holds %s\n", a, b, NR, $i
+                bad = 1
+                exit 1
+            }
+        }
         sum = 0
         for (i = 2; i <= 4; ++i) {
             d = $(n + i) - $i - dt * $(i + 3)

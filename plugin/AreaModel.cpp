@@ -229,7 +229,7 @@ void AreaModel::open_cache(const Settings &settings) {
     const srp_log to = log();
     srp_cache *cache = nullptr;
     if (srp_cache_open(&params, &to, &cache, &error) != SRP_OK) {
-        fail("SRPCacheDirectory", error);
+        messages_("SRPCacheDirectory: " + words_of(error) + "; the run goes on without the cache");
     }
     cache_.reset(cache);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Settings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -82,6 +83,50 @@ bool is_word_of(const std::string &value, const char *words) {
     return false;
 }
 
+// Whether a field has another value than it begins with.
+bool is_set(const Settings &settings, const Field &field) {
+    static const Settings usual;
+    return std::visit([&](auto member) { return settings.*member != usual.*member; }, field.member);
+}
+
+// Fields that would count for nothing are a misunderstanding. `names`: with blanks between.
+void refuse(const Settings &settings, const char *names, const char *reason) {
+    for (const Field &field : fields()) {
+        if (is_word_of(field.name, names) && is_set(settings, field)) {
+            throw BadSetting(std::string(field.name) + ": " + reason);
+        }
+    }
+}
+
+void check_unused(const Settings &settings) {
+    if (settings.obj_file.empty()) {
+        refuse(settings,
+               "SRPMtlFile SRPUnit SRPMethod SRPGrid SRPReflections SRPDiffuse SRPAzimuthStep "
+               "SRPElevationStep",
+               "goes with SRPObjFile, a table is as it was made");
+    }
+    if (settings.method != "raytrace") {
+        refuse(settings, "SRPReflections SRPDiffuse",
+               "goes with SRPMethod = raytrace, the only one that follows reflected light");
+    }
+    if (settings.method == "exact") {
+        refuse(settings, "SRPGrid",
+               "goes with SRPMethod raycast or raytrace, exact samples nothing");
+    }
+}
+
+void check_bodies(const Settings &settings) {
+    const std::vector<std::string> names = names_in(settings.shadow_bodies);
+    const auto has = [&](const char *name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (names.empty() || has("Sun") || (has("None") && names.size() > 1)) {
+        throw BadSetting("SRPShadowBodies: found '" + settings.shadow_bodies +
+                         "', expected CentralBody, None alone, or names such as 'Earth, Luna', "
+                         "without the Sun");
+    }
+}
+
 } // namespace
 
 const std::vector<Field> &fields() {
@@ -117,9 +162,8 @@ void check(const Settings &settings) {
         throw BadSetting("SRPTableFile: not set, expected the name of a table (.nc, .spo), or "
                          "SRPObjFile with that of a model");
     }
-    if (table && !settings.mtl_file.empty()) {
-        throw BadSetting("SRPMtlFile: goes with SRPObjFile, a table has its optics in it");
-    }
+    check_unused(settings);
+    check_bodies(settings);
     const std::string &scheme = settings.interpolation;
     if (model && settings.on_demand && scheme != "bilinear" && scheme != "bicubic") {
         throw BadSetting("SRPInterpolation: " + scheme +

@@ -106,6 +106,37 @@ START_TEST(fields_fit_together) {
 }
 END_TEST
 
+// Whoever sets what counts for nothing believes that it counts.
+START_TEST(fields_that_count_for_nothing_are_refused) {
+    Settings s;
+    s.table_file = "a.nc";
+    s.method = "raytrace";
+    assert_says(check(s), "SRPMethod: goes with SRPObjFile");
+    s.method = "exact";
+    s.azimuth_step_deg = 7.0;
+    assert_says(check(s), "SRPAzimuthStep: goes with SRPObjFile");
+    s = Settings();
+    s.obj_file = BOX_WING;
+    s.diffuse = 8;
+    assert_says(check(s), "SRPDiffuse: goes with SRPMethod = raytrace");
+    s.diffuse = 0;
+    s.reflections = 5;
+    assert_says(check(s), "SRPReflections: goes with SRPMethod = raytrace");
+    s.reflections = 2;
+    s.grid = 64;
+    assert_says(check(s), "SRPGrid: goes with SRPMethod raycast or raytrace");
+    s.method = "raytrace";
+    s.diffuse = 8;
+    check(s);
+    for (const char *bodies : {"", "None, Earth", "Sun", "Sun, Earth"}) {
+        s.shadow_bodies = bodies;
+        assert_says(check(s), "SRPShadowBodies: found '");
+    }
+    s.shadow_bodies = "None";
+    check(s);
+}
+END_TEST
+
 // ---- Models -------------------------------------------------------------------------------------
 
 struct Heard {
@@ -275,6 +306,7 @@ int main() {
     tcase_add_test(tcase, numbers_stay_in_their_ranges);
     tcase_add_test(tcase, words_are_those_that_are_known);
     tcase_add_test(tcase, fields_fit_together);
+    tcase_add_test(tcase, fields_that_count_for_nothing_are_refused);
     tcase_add_test(tcase, at_once_and_on_demand_are_the_same);
     tcase_add_test(tcase, tables_are_looked_up_by_each_scheme);
     tcase_add_test(tcase, bad_files_are_told_with_field_and_place);
