@@ -7,6 +7,7 @@
 
 #include <locale.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #ifdef SRP_CLI_HAS_ORBIT
@@ -100,9 +101,10 @@ static void on_activate(GtkApplication *application, gpointer user) {
         return;
     }
     v->scripted = s->actions != NULL || s->screenshot != NULL;
-    v->remembers = !v->scripted || s->remember;
+    v->strict = s->screenshot != NULL && s->actions == NULL;
+    v->remembers = (!v->scripted || s->remember) && !s->fresh;
     viewer_build_window(v);
-    if (v->remembers && !s->fresh) {
+    if (v->remembers) {
         viewer_state_load(v);
     }
     viewer_tell(v, CHANGED_ALL);
@@ -139,6 +141,25 @@ static void print_actions(void) {
     }
 }
 
+static bool is_tab(const char *tab) {
+    static const char *const TABS[] = {"spacecraft", "graphics", "compare", "orbit", NULL};
+    if (tab == NULL || g_strv_contains(TABS, tab)) {
+        return true;
+    }
+    g_printerr("srp-viewer: --tab %s: expected spacecraft, graphics, compare or orbit\n", tab);
+    return false;
+}
+
+static bool is_size(const char *size) {
+    int width, height, end = 0;
+    if (size == NULL ||
+        (sscanf(size, "%5dx%5d%n", &width, &height, &end) == 2 && size[end] == '\0')) {
+        return true;
+    }
+    g_printerr("srp-viewer: --size %s: expected WIDTHxHEIGHT in pixels, as 1280x800\n", size);
+    return false;
+}
+
 static int parse(start *s, int *argc, char ***argv) {
     gboolean version = FALSE;
     GOptionEntry options[] = {
@@ -151,7 +172,8 @@ static int parse(start *s, int *argc, char ***argv) {
                 "Save a picture of the window as PNG, then close", "FILE"),
         entries("size", G_OPTION_ARG_STRING, &s->size, "Size of the window in pixels",
                 "WIDTHxHEIGHT"),
-        entries("fresh", G_OPTION_ARG_NONE, &s->fresh, "Take nothing from the last time", NULL),
+        entries("fresh", G_OPTION_ARG_NONE, &s->fresh,
+                "Take nothing from the last time, and leave it as it is", NULL),
         entries("remember", G_OPTION_ARG_NONE, &s->remember,
                 "Remember things with --actions and --screenshot, too", NULL),
         entries("list-actions", G_OPTION_ARG_NONE, &s->list, "Print all actions", NULL),
@@ -179,6 +201,9 @@ static int parse(start *s, int *argc, char ***argv) {
     if (s->list) {
         print_actions();
         return 0;
+    }
+    if (!is_tab(s->tab) || !is_size(s->size)) {
+        return BAD_USAGE;
     }
     if (s->operands != NULL && s->operands[0] != NULL && s->operands[1] != NULL) {
         g_printerr("srp-viewer: expected one MODEL.obj\n");

@@ -55,7 +55,8 @@ viewer_attitude viewer_attitude_for_sun(double az_deg, double el_deg) {
     srp_vec3 s = srp_direction_from_deg(az_deg, el_deg);
     double z = -asin(fmax(-1.0, fmin(1.0, s.y)));
     double y = hypot(s.x, s.z) > 1e-12 ? atan2(s.z, s.x) : 0.0;
-    viewer_attitude attitude = {{0.0, rounded(y / SRP_RAD_PER_DEG), rounded(z / SRP_RAD_PER_DEG)}};
+    /* Not rounded: what is rounded on the way back is then the azimuth and elevation given here. */
+    viewer_attitude attitude = {{0.0, y / SRP_RAD_PER_DEG + 0.0, z / SRP_RAD_PER_DEG + 0.0}};
     return attitude;
 }
 

@@ -39,6 +39,11 @@ void viewer_complain(viewer *v, const char *text) {
     if (text[0] != '\0' || v->message_is_problem) {
         set_message(v, text, text[0] != '\0');
     }
+    /* Nobody sees the window of a script. */
+    if (text[0] != '\0' && v->scripted) {
+        g_printerr("srp-viewer: %s\n", text);
+        v->exit_status = v->strict ? 1 : v->exit_status;
+    }
 }
 
 void viewer_act(viewer *v, const char *action, GVariant *parameter) {

@@ -65,6 +65,8 @@ struct viewer {
     double asked_at;     /* when the newest force was asked for, NAN: shown already */
     GPtrArray *listeners;
     int exit_status;
+    bool strict; /* a complaint is a failure: there is a picture to make, and no script that expects
+                  */
     bool scripted;  /* the window closes when the script is at its end */
     bool remembers; /* what is remembered is read at the start and written at the end */
 };

@@ -8,7 +8,7 @@ table=$(one_wing) || exit 77
     attitude Sat nadir
     forces FM plugin "SRPTableFile = '$table'" "SRPInterpolation = bilinear" \
         "SRPScaleFactor = 1.0625" "SRPShadowBodies = 'Earth, Luna'" "SRPFlux = 1361.5" \
-        "SRPOnDemand = false" "SRPGrid = 256"
+        "SRPOnDemand = false" "SRPMaxError = 0.03125"
     propagator Prop FM 60
     report first Sat
     echo 'BeginMissionSequence;'
@@ -24,7 +24,7 @@ sed "s#^ROOT_PATH.*#ROOT_PATH = $(realpath "$GMAT_ROOT")/application/#" startup.
     fail "interactive GMAT ends with status $?"
 for line in "UserDefined = {HighFidelitySRP};" "SRPTableFile = '$table';" \
     'SRPInterpolation = ' 'SRPScaleFactor = 1.0625;' 'SRPFlux = 1361.5;' 'SRPOnDemand = false;' \
-    'SRPGrid = 256;' "SRPShadowBodies = 'Earth, Luna';" 'SRPMaxError = ' 'SRPAstronomicalUnit = '; do
+    'SRPMaxError = 0.03125;' "SRPShadowBodies = 'Earth, Luna';" 'SRPAstronomicalUnit = '; do
     grep -qF -- "$line" mission.script || fail "the saved script lacks '$line'"
 done
 grep -q 'Generated\|General Mission Analysis Tool' mission.script || fail "it was not saved"

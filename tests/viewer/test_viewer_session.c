@@ -280,6 +280,16 @@ START_TEST(attitude_for_a_sun) {
             ck_assert(srp_vec3_norm(srp_vec3_sub(want, got)) < 1e-10);
         }
     }
+    /* What was typed is what is computed: sampled methods choose their samples by it. */
+    for (int az = -179; az <= 180; ++az) {
+        for (int el = -89; el <= 89; ++el) {
+            double got_az, got_el;
+            viewer_attitude attitude = viewer_attitude_for_sun(az, el);
+            viewer_attitude_sun(&attitude, &got_az, &got_el);
+            ck_assert_msg(got_az == az && got_el == el, "%d, %d: %.17g, %.17g", az, el, got_az,
+                          got_el);
+        }
+    }
 }
 END_TEST
 
