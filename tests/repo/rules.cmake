@@ -60,3 +60,17 @@ foreach(file IN LISTS sources)
 endforeach()
 list(LENGTH sources count)
 message(STATUS "${count} source files follow the rules")
+
+# What a test or a run leaves in the root is easily added to a commit.
+find_program(GIT git)
+if(GIT)
+  execute_process(COMMAND ${GIT} -C ${ROOT} ls-files OUTPUT_VARIABLE tracked
+    RESULT_VARIABLE status ERROR_QUIET)
+  string(REPLACE "\n" ";" tracked "${tracked}")
+  foreach(file IN LISTS tracked)
+    if(status EQUAL 0 AND NOT file MATCHES "/|^\\.|\\.md$|^LICENSE$|^CMake(Lists\\.txt|Presets\\.json)$"
+       AND NOT file STREQUAL "")
+      message(SEND_ERROR "${file}: no file of the root")
+    endif()
+  endforeach()
+endif()
