@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #ifdef SRP_CLI_HAS_ORBIT
 #include <gsl/gsl_errno.h>
@@ -142,8 +143,11 @@ static void print_actions(void) {
 }
 
 static bool is_tab(const char *tab) {
-    static const char *const TABS[] = {"spacecraft", "graphics", "compare", "orbit", NULL};
-    if (tab == NULL || g_strv_contains(TABS, tab)) {
+    bool known = tab == NULL;
+    for (int i = 0; i < TAB_COUNT && !known; ++i) {
+        known = strcmp(tab, VIEWER_TAB_NAME[i]) == 0;
+    }
+    if (known) {
         return true;
     }
     g_printerr("srp-viewer: --tab %s: expected spacecraft, graphics, compare or orbit\n", tab);

@@ -237,8 +237,9 @@ static void write_vertices(const srp_raster_frame *frame, double radius, float *
     size_t count = frame->mesh->vertex_count;
     double far = INFINITY, near = -INFINITY;
     for (size_t i = 0; i < count; ++i) {
-        far = fmin(far, frame->depth[i]);
-        near = fmax(near, frame->depth[i]);
+        double h = frame->depth[i];
+        far = h < far ? h : far; /* not fmin(): that is a call for each vertex */
+        near = h > near ? h : near;
     }
     /* A sheet that faces the Sun has no depth at all. */
     double range = fmax(near - far, 1e-6 * radius), middle = 0.5 * (near + far), room = 1.98;

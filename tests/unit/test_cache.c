@@ -300,6 +300,17 @@ START_TEST(a_full_disk_costs_one_message) {
 }
 END_TEST
 
+/* As another program would; for srp_platform_unlock_file(). */
+static int lock_cache(void) {
+    char path[160];
+    int lock = -1;
+    srp_error error;
+    snprintf(path, sizeof path, "%s/lock", cache_test.directory);
+    assert_ok(srp_platform_lock_file(path, 0.0, &lock, &error), error);
+    ck_assert_int_ge(lock, 0);
+    return lock;
+}
+
 START_TEST(a_cache_in_use_is_passed_by) {
     counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
     visit(&fixture, 0, 2);
@@ -308,12 +319,8 @@ START_TEST(a_cache_in_use_is_passed_by) {
     params.flush_nodes = 1;
     srp_cache *cache = open_cache(&params);
     srp_demand *demand = make_demand(&fixture, cache);
-    char path[160];
-    int lock = -1;
     srp_error error;
-    snprintf(path, sizeof path, "%s/lock", cache_test.directory);
-    assert_ok(srp_platform_lock_file(path, 0.0, &lock, &error), error);
-    ck_assert_int_ge(lock, 0);
+    int lock = lock_cache();
     need_columns(demand, 2, 6);
     ck_assert_int_eq(cache_test.messages, 0);
     ck_assert_int_eq(srp_demand_flush(demand, &error), SRP_IO);
@@ -334,11 +341,7 @@ START_TEST(a_cache_that_is_free_again_is_used) {
     srp_cache_params params = cache_params();
     params.wait_seconds = 0.05;
     srp_cache *cache = open_cache(&params);
-    char path[160];
-    int lock = -1;
-    srp_error error;
-    snprintf(path, sizeof path, "%s/lock", cache_test.directory);
-    assert_ok(srp_platform_lock_file(path, 0.0, &lock, &error), error);
+    int lock = lock_cache();
     srp_demand *demand = make_demand(&fixture, cache);
     ck_assert_int_eq(cache_test.messages, 1);
     ck_assert_ptr_nonnull(strstr(cache_test.last_message, "has locked the cache"));
