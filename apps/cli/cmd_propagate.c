@@ -377,14 +377,8 @@ static int propagate_both(const propagate_options *options, const srp_mission *a
 }
 
 static const srp_method *find_method(void *user, const char *name, const char *device) {
-    const srp_method *method;
     (void)user;
-    for (size_t i = 0; (method = cli_method_at(i)) != NULL; ++i) {
-        if (strcmp(method->name, name) == 0 && strcmp(method->device, cli_device_of(device)) == 0) {
-            return method;
-        }
-    }
-    return NULL;
+    return cli_method_find(name, device);
 }
 
 static int propagate(const propagate_options *options, const cli_operands *operands) {

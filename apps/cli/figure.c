@@ -79,7 +79,7 @@ int cli_figure_check(const cli_figure_options *options, const char *const *input
     char *target = cli_system_write_target(path, &special);
     free(target);
     if (special) {
-        fprintf(stderr, "%s: cannot write: a figure needs a regular file\n", path);
+        cli_say_of_file("%s: cannot write: a figure needs a regular file", path);
         return CLI_MACHINE_FAILED;
     }
     if (!has_device(kind->device)) {

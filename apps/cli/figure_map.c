@@ -176,14 +176,21 @@ static int level_of(double value, cli_scale scale, int levels) {
     return (int)fmin(fmax(at, 0.0), levels - 1.0);
 }
 
+/* A parallel on the map: it is straight, and azimuth is laid off in proportion. */
+typedef struct parallel {
+    double shrink, y;
+} parallel;
+
+static parallel parallel_at(double el_deg, bool mollweide) {
+    parallel p;
+    place(1.0, el_deg, mollweide, &p.shrink, &p.y);
+    return p;
+}
+
 /* The part of a row between two azimuths, in one colour. */
-static void fill_run(double az0, double az1, double el0, double el1, double colour,
-                     bool mollweide) {
-    const double az[4] = {az0, az1, az1, az0}, el[4] = {el0, el0, el1, el1};
-    PLFLT x[4], y[4];
-    for (int k = 0; k < 4; ++k) {
-        place(az[k], el[k], mollweide, &x[k], &y[k]);
-    }
+static void fill_run(double az0, double az1, parallel low, parallel high, double colour) {
+    const PLFLT x[4] = {az0 * low.shrink, az1 * low.shrink, az1 * high.shrink, az0 * high.shrink};
+    const PLFLT y[4] = {low.y, low.y, high.y, high.y};
     plcol1(colour);
     plfill(4, x, y);
 }
@@ -195,14 +202,15 @@ static void shade(const map *m, cli_scale scale, int rows, int levels, bool moll
     plpsty(0);
     for (int j = 0; j < rows; ++j) {
         double el0 = -90.0 + 180.0 * j / rows, el1 = -90.0 + 180.0 * (j + 1) / rows;
+        parallel low = parallel_at(el0, mollweide), high = parallel_at(el1, mollweide);
         int begin = 0, level = -1;
         for (int i = 0; i <= columns; ++i) {
             double az = -180.0 + 360.0 * (i + 0.5) / columns;
             int next =
                 i < columns ? level_of(value_at(m, az, 0.5 * (el0 + el1)), scale, levels) : -1;
             if (next != level && i > 0) {
-                fill_run(-180.0 + 360.0 * begin / columns, -180.0 + 360.0 * i / columns, el0, el1,
-                         (level + 0.5) / levels, mollweide);
+                fill_run(-180.0 + 360.0 * begin / columns, -180.0 + 360.0 * i / columns, low, high,
+                         (level + 0.5) / levels);
                 begin = i;
             }
             level = next;

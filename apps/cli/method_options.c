@@ -314,18 +314,16 @@ static int refuse_device(const cli_method_options *options) {
 }
 
 static int find_method(const cli_method_options *options, const srp_method **method) {
-    const char *device = cli_device_of(options->device);
+    const srp_method *found = cli_method_find(options->name, options->device);
+    if (found != NULL) {
+        *method = found;
+        return CLI_DONE;
+    }
     const srp_method *candidate;
     cli_suggestion near = cli_suggestion_begin(options->name);
     bool named = false;
     for (size_t i = 0; (candidate = cli_method_at(i)) != NULL; ++i) {
-        if (strcmp(candidate->name, options->name) == 0) {
-            named = true;
-            if (strcmp(candidate->device, device) == 0) {
-                *method = candidate;
-                return CLI_DONE;
-            }
-        }
+        named = named || strcmp(candidate->name, options->name) == 0;
         cli_suggestion_offer(&near, candidate->name);
     }
     if (named) {

@@ -51,3 +51,14 @@ const srp_method *cli_method_named_at(size_t k) {
 const char *cli_device_of(const char *text) {
     return strcmp(text, "gl") == 0 ? "gl:osmesa" : text;
 }
+
+const srp_method *cli_method_find(const char *name, const char *device) {
+    const srp_method *method;
+    device = cli_device_of(device);
+    for (size_t i = 0; (method = cli_method_at(i)) != NULL; ++i) {
+        if (strcmp(method->name, name) == 0 && strcmp(method->device, device) == 0) {
+            return method;
+        }
+    }
+    return NULL;
+}

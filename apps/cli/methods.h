@@ -11,6 +11,9 @@
 /* The k-th method on any device; NULL behind the last. */
 const srp_method *cli_method_at(size_t k);
 
+/* The method of this name on a device, as --device takes it; NULL: none. */
+const srp_method *cli_method_find(const char *name, const char *device);
+
 /* The k-th method as far as users choose it by name: one of each name; NULL behind the last. */
 const srp_method *cli_method_named_at(size_t k);
 

@@ -61,8 +61,8 @@ int cli_missions_check_pair(const srp_mission *a, const srp_mission *b) {
                {"central_body", one->central == other->central}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         if (!all[i].same) {
-            fprintf(stderr, "%s: its %s differs from that of %s, expected the same", other->file,
-                    all[i].name, one->file);
+            cli_say_of_file("%s: its %s differs from that of %s, expected the same", other->file,
+                            all[i].name, one->file);
             return CLI_BAD_INPUT;
         }
     }

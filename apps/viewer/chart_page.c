@@ -62,33 +62,47 @@ typedef struct place {
     double x, y, depth; /* [px], [px], larger in front */
 } place;
 
-/* As plw3d() and the window of cli_figure_surface() put it. */
-static place place_of(const viewer_page *page, uint32_t i, uint32_t j) {
-    srp_grid grid = page->picture->grid[0];
-    double low, high, x0, x1, y0, y1;
-    cli_figure_axis(cli_figure_scale(page->picture, page->row), &low, &high);
+/* What is the same for all nodes of a page. */
+typedef struct projection {
+    cli_panel panel;
+    double low, high;                        /* of the axis */
+    double x0, x1, y0, y1;                   /* of the window */
+    double sin_az, cos_az, sin_alt, cos_alt; /* of the eye */
+} projection;
+
+static projection projection_of(const viewer_page *page) {
+    projection p = {.panel = panel_of(page)};
+    cli_figure_axis(cli_figure_scale(page->picture, page->row), &p.low, &p.high);
+    cli_figure_window(page->view, &p.x0, &p.x1, &p.y0, &p.y1);
     double az = page->view[0] * SRP_RAD_PER_DEG, alt = page->view[1] * SRP_RAD_PER_DEG;
+    p.sin_az = sin(az), p.cos_az = cos(az), p.sin_alt = sin(alt), p.cos_alt = cos(alt);
+    return p;
+}
+
+/* As plw3d() and the window of cli_figure_surface() put it. */
+static place place_of(const viewer_page *page, const projection *p, uint32_t i, uint32_t j) {
+    srp_grid grid = page->picture->grid[0];
     double x = srp_grid_azimuth_deg(grid, i) / 360.0, y = srp_grid_elevation_deg(grid, j) / 180.0;
     double value = page->picture->field[0][page->row].value[(size_t)i * grid.el_count + j];
-    double z = (value - low) / (high - low);
-    double across = x * cos(az) - y * sin(az), along = x * sin(az) + y * cos(az);
-    cli_figure_window(page->view, &x0, &x1, &y0, &y1);
-    cli_panel panel = panel_of(page);
-    double up = along * sin(alt) + z * cos(alt);
-    return (place){page->width * (across - x0) / (x1 - x0),
+    double z = (value - p->low) / (p->high - p->low);
+    double across = x * p->cos_az - y * p->sin_az, along = x * p->sin_az + y * p->cos_az;
+    double up = along * p->sin_alt + z * p->cos_alt;
+    return (place){page->width * (across - p->x0) / (p->x1 - p->x0),
                    page->height *
-                       (1.0 - panel.bottom - (panel.top - panel.bottom) * (up - y0) / (y1 - y0)),
-                   z * sin(alt) - along * cos(alt)};
+                       (1.0 - p->panel.bottom -
+                        (p->panel.top - p->panel.bottom) * (up - p->y0) / (p->y1 - p->y0)),
+                   z * p->sin_alt - along * p->cos_alt};
 }
 
 bool viewer_page_find(const viewer_page *page, double x, double y, uint32_t *i, uint32_t *j) {
     const double reach = 14.0;
     srp_grid grid = page->picture->grid[0];
+    const projection p = projection_of(page);
     double best = -INFINITY;
     bool found = false;
     for (uint32_t a = 0; a < grid.az_count; ++a) {
         for (uint32_t b = 0; b < grid.el_count; ++b) {
-            place at = place_of(page, a, b);
+            place at = place_of(page, &p, a, b);
             double off = hypot(at.x - x, at.y - y);
             /* Nearer on the screen counts, and so does being in front. */
             double merit = at.depth - 0.1 * off;
@@ -104,7 +118,8 @@ bool viewer_page_find(const viewer_page *page, double x, double y, uint32_t *i, 
 }
 
 void viewer_page_place(const viewer_page *page, uint32_t i, uint32_t j, double *x, double *y) {
-    place at = place_of(page, i, j);
+    const projection p = projection_of(page);
+    place at = place_of(page, &p, i, j);
     *x = at.x;
     *y = at.y;
 }

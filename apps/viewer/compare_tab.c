@@ -3,6 +3,7 @@
 #include "chart.h"
 #include "comparison.h"
 #include "comparison_view.h"
+#include "facing.h"
 #include "fit.h"
 #include "ui.h"
 #include "viewer.h"
@@ -204,7 +205,7 @@ static GtkWidget *make_strip(pane *p) {
     gtk_box_append(GTK_BOX(box),
                    ui_button("Sav_e…", "choose-save",
                              "Save the figure (.png, .svg, .pdf) or fitted plates (.plates)"));
-    p->plates = gtk_spin_button_new_with_range(1.0, 64.0, 1.0);
+    p->plates = gtk_spin_button_new_with_range(1.0, CLI_NORMALS_MAX, 1.0);
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), 8.0);
     gtk_editable_set_width_chars(GTK_EDITABLE(p->plates), 2);
     gtk_widget_set_name(p->plates, "plates-count");

@@ -43,7 +43,6 @@ static viewer_shape *read_shape(const viewer_setup *setup, viewer_words *problem
     if (shape == NULL) {
         return NULL;
     }
-    double began = viewer_seconds();
     atomic_init(&shape->references, 1);
     shape->path = viewer_text_copy(setup->model);
     shape->unit = viewer_text_copy(setup->model_option[MODEL_UNIT]);
@@ -55,7 +54,6 @@ static viewer_shape *read_shape(const viewer_setup *setup, viewer_words *problem
     const char *const path = shape->path;
     cli_operands operands = {&path, 1};
     int status = path != NULL ? cli_info_collect(&model, &operands, &shape->info) : CLI_BAD_INPUT;
-    shape->seconds = viewer_seconds() - began;
     if (status != CLI_DONE) {
         if (problem->text[0] == '\0') {
             viewer_words_add(problem, "no memory");
@@ -141,7 +139,6 @@ static srp_scene *scene_of_method(viewer_engine *engine) {
 }
 
 static void prepare(viewer_engine *engine) {
-    double began = viewer_seconds();
     if (!viewer_setup_choose(engine->setup, &engine->method, &engine->params, &engine->problem)) {
         engine->method = viewer_setup_method(engine->setup);
         return;
@@ -155,7 +152,6 @@ static void prepare(viewer_engine *engine) {
             srp_scene_destroy(scene);
         }
     }
-    engine->seconds = viewer_seconds() - began;
 }
 
 viewer_engine *viewer_engine_make(const viewer_setup *setup, viewer_shape *known, bool reload) {

@@ -21,7 +21,6 @@ typedef struct viewer_shape {
     atomic_int references;
     char *path, *unit; /* unit NULL: metres */
     cli_info info;
-    double seconds; /* it took to read */
 } viewer_shape;
 
 viewer_shape *viewer_shape_reference(viewer_shape *shape); /* may be NULL, as the next */
@@ -37,8 +36,7 @@ typedef struct viewer_engine {
     srp_method_params params;
     srp_prepared *prepared; /* NULL: `problem` says why */
     bool owns_scene;        /* the scene of `prepared` is not `mesh` */
-    viewer_words problem, warnings;
-    double seconds; /* it took to prepare */
+    viewer_words problem;
 } viewer_engine;
 
 /* Reads, joins and prepares; whatever fails is in `problem`. `known` (may be NULL) is taken for the

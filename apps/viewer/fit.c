@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "fit.h"
 
+#include "facing.h"
 #include "plate_output.h"
 #include "table_fit.h"
 #include "text_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-
-enum { PLATES_MAX = 64 };
 
 /* Of a window: the plates of the last fit. */
 typedef struct keeper {
@@ -90,7 +89,7 @@ static srp_status fill_table(fit_job *job, size_t count, srp_error *error) {
 static void fit_run(viewer_job *base) {
     fit_job *job = (fit_job *)base;
     cli_samples samples;
-    srp_vec3 normals[PLATES_MAX];
+    srp_vec3 normals[CLI_NORMALS_MAX];
     srp_error error;
     double began = viewer_seconds();
     if (!cli_samples_take(job->from, srp_table_grid(job->from), false, &samples)) {
@@ -181,7 +180,7 @@ void viewer_fit_request(viewer *v, unsigned plates) {
     job->v = v;
     job->from = a->table;
     job->name = viewer_text_copy(a->name);
-    job->plates = plates < 1 ? 1 : plates > PLATES_MAX ? PLATES_MAX : plates;
+    job->plates = plates < 1 ? 1 : plates > CLI_NORMALS_MAX ? CLI_NORMALS_MAX : plates;
     viewer_worker_cancel(v->requests.batch, SLOT_FIT);
     viewer_worker_submit(v->requests.batch, SLOT_FIT, &job->job);
     viewer_tell(v, CHANGED_BUSY);

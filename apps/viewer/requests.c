@@ -218,8 +218,7 @@ static void probe_run(viewer_job *base) {
     if (n > 0) {
         qsort(seconds, n, sizeof *seconds, by_size);
         bool from_plates = truth == NULL && (job->engine->method->shapes & SRP_SHAPE_MESH) == 0;
-        job->found =
-            (viewer_probe){true, n, seconds[n / 2], from_plates ? NAN : worst, truth != NULL};
+        job->found = (viewer_probe){true, seconds[n / 2], from_plates ? NAN : worst, truth != NULL};
     }
 }
 

@@ -15,7 +15,6 @@ typedef struct viewer viewer;
 /* What a quick look at the method found, on this machine and this model. */
 typedef struct viewer_probe {
     bool known;
-    size_t directions;
     double seconds;     /* for one direction, median */
     double error;       /* relative, of |f|: the largest that was seen; NAN: not known */
     bool against_exact; /* the error is the distance from the method exact, not the method's own */

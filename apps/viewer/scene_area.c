@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene_area.h"
 
-#include "palette.h"
 #include "scene_look.h"
 #include "ui.h"
 
@@ -180,9 +179,11 @@ static void draw_axes_words(area *a, cairo_t *cr) {
     put_word(a, cr, sun, "Sun", gold);
 }
 
+enum { BAR_STRIPS = 90 };
+
 /* A bar of colours with numbers below its ends. */
 static void draw_bar(GtkWidget *widget, cairo_t *cr, double y, const char *title, const char *low,
-                     const char *high, void (*colour)(double share, float rgb[3])) {
+                     const char *high, const srp_render_colour colours[BAR_STRIPS]) {
     GdkRGBA ink;
     gtk_style_context_get_color(gtk_widget_get_style_context(widget), &ink);
     const double x = 14.0, width = 180.0;
@@ -191,10 +192,9 @@ static void draw_bar(GtkWidget *widget, cairo_t *cr, double y, const char *title
     gdk_cairo_set_source_rgba(cr, &ink);
     cairo_move_to(cr, x, y - 5.0);
     cairo_show_text(cr, title);
-    for (int k = 0; k < 90; ++k) {
-        float rgb[3];
-        colour((k + 0.5) / 90.0, rgb);
-        cairo_set_source_rgb(cr, (double)rgb[0], (double)rgb[1], (double)rgb[2]);
+    for (int k = 0; k < BAR_STRIPS; ++k) {
+        const srp_render_colour *c = &colours[k];
+        cairo_set_source_rgb(cr, (double)c->r, (double)c->g, (double)c->b);
         cairo_rectangle(cr, x + 2.0 * k, y, 2.5, 10.0);
         cairo_fill(cr);
     }
@@ -207,12 +207,18 @@ static void draw_bar(GtkWidget *widget, cairo_t *cr, double y, const char *title
     cairo_show_text(cr, high);
 }
 
-static void map_colour(double share, float rgb[3]) {
-    cli_palette palette;
-    cli_palette_sequential(&palette);
-    int k = (int)(share * (CLI_PALETTE_SIZE - 1));
-    for (int c = 0; c < 3; ++c) {
-        rgb[c] = (float)palette.rgb[k][c];
+/* Of the facets, as they were drawn. */
+static void map_colours(const viewer_look *look, srp_render_colour colours[BAR_STRIPS]) {
+    for (int k = 0; k < BAR_STRIPS; ++k) {
+        colours[k] = look->map[(int)((k + 0.5) / BAR_STRIPS * (LOOK_MAP_SIZE - 1))];
+    }
+}
+
+static void arrow_colours(srp_render_colour colours[BAR_STRIPS]) {
+    for (int k = 0; k < BAR_STRIPS; ++k) {
+        float rgb[3];
+        viewer_arrow_colour((k + 0.5) / BAR_STRIPS, rgb);
+        colours[k] = (srp_render_colour){rgb[0], rgb[1], rgb[2]};
     }
 }
 
@@ -240,6 +246,7 @@ static void draw_material_names(area *a, GtkWidget *widget, cairo_t *cr, int hei
 
 static void draw_marks(GtkDrawingArea *widget, cairo_t *cr, int width, int height, gpointer user) {
     area *a = user;
+    srp_render_colour colours[BAR_STRIPS];
     double least, largest;
     (void)width;
     if (a->drawn == NULL || a->drawn->mesh == NULL) {
@@ -249,17 +256,18 @@ static void draw_marks(GtkDrawingArea *widget, cairo_t *cr, int width, int heigh
     if (a->v->colouring == COLOUR_MATERIAL) {
         draw_material_names(a, GTK_WIDGET(widget), cr, height);
     } else {
+        map_colours(&a->look, colours);
         draw_bar(GTK_WIDGET(widget), cr, 24.0,
                  a->v->colouring == COLOUR_FORCE ? "force per lit area and pressure"
                                                  : "cosine of the incidence",
-                 "0", a->v->colouring == COLOUR_FORCE ? "2" : "1", map_colour);
+                 "0", a->v->colouring == COLOUR_FORCE ? "2" : "1", colours);
     }
     if (viewer_session_arrow_range(a->v->session, &least, &largest)) {
         char low[32], high[32];
         snprintf(low, sizeof low, "%.4g", least);
         snprintf(high, sizeof high, "%.4g m²", largest);
-        draw_bar(GTK_WIDGET(widget), cr, height - 36.0, "|f| of the arrows", low, high,
-                 viewer_arrow_colour);
+        arrow_colours(colours);
+        draw_bar(GTK_WIDGET(widget), cr, height - 36.0, "|f| of the arrows", low, high, colours);
     }
 }
 

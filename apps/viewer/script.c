@@ -10,7 +10,7 @@
 
 typedef struct script {
     viewer *v;
-    char *name, *text;
+    char *name;
     char **lines;
     size_t at;
     double resume_at; /* [s] */
@@ -26,7 +26,6 @@ static void script_free(gpointer user) {
     script *s = user;
     g_strfreev(s->lines);
     g_free(s->name);
-    g_free(s->text);
     g_free(s);
 }
 
@@ -253,7 +252,7 @@ void viewer_script_run(viewer *v, const char *name, char *text) {
     script *s = g_new0(script, 1);
     s->v = v;
     s->name = g_strdup(name);
-    s->text = text;
     s->lines = g_strsplit(text, "\n", -1);
+    g_free(text);
     g_timeout_add_full(G_PRIORITY_DEFAULT, TICK_MS, tick, s, script_free);
 }

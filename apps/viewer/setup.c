@@ -202,15 +202,7 @@ static void apply(const cli_option *option, void *target, int bit, const char *t
 const srp_method *viewer_setup_method(const viewer_setup *setup) {
     const char *name = setup->method_option[METHOD_NAME];
     const char *device = setup->method_option[METHOD_DEVICE];
-    name = name != NULL ? name : "exact";
-    device = cli_device_of(device != NULL ? device : "cpu");
-    const srp_method *method;
-    for (size_t i = 0; (method = cli_method_at(i)) != NULL; ++i) {
-        if (strcmp(method->name, name) == 0 && strcmp(method->device, device) == 0) {
-            return method;
-        }
-    }
-    return NULL;
+    return cli_method_find(name != NULL ? name : "exact", device != NULL ? device : "cpu");
 }
 
 static bool applies(const viewer_setup *setup, const srp_method *method, int option) {
