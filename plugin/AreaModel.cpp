@@ -160,13 +160,19 @@ void AreaModel::interpolate(const Settings &settings, const srp_table *table, co
     spad_.reset(spad);
 }
 
+void AreaModel::warn_of_sampling(double largest, double sampling) const {
+    if (sampling > max_error_ * largest) {
+        messages_(name_ + ": the sampling error reaches " + percent(sampling / largest) +
+                  " of the largest force, above SRPMaxError");
+    }
+}
+
 void AreaModel::warn_of_table(const Settings &settings, const srp_table *table) const {
     const auto [largest, sampling] = extremes(
         srp_table_grid(table), [&](uint32_t i, uint32_t j) { return srp_table_node(table, i, j); });
     const srp_table_info *info = srp_table_get_info(table);
-    if (info->has_error && sampling > max_error_ * largest) {
-        messages_(name_ + ": the sampling error reaches " + percent(sampling / largest) +
-                  " of the largest force, above SRPMaxError");
+    if (info->has_error) {
+        warn_of_sampling(largest, sampling);
     }
     size_t count;
     const srp_interp_scheme *const *schemes = srp_interp_list(&count);
@@ -284,10 +290,7 @@ void AreaModel::tell_of_demand() const {
     const auto [largest, sampling] = extremes(srp_demand_grid(demand), [&](uint32_t i, uint32_t j) {
         return srp_demand_get(demand, srp_demand_node{i, j});
     });
-    if (sampling > max_error_ * largest) {
-        messages_(name_ + ": the sampling error reaches " + percent(sampling / largest) +
-                  " of the largest force, above SRPMaxError");
-    }
+    warn_of_sampling(largest, sampling);
 }
 
 // ---- Sharing ------------------------------------------------------------------------------------

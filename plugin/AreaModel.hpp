@@ -79,6 +79,7 @@ class AreaModel {
     void trace_on_demand(const Settings &settings, srp_grid grid);
     void trace_at_once(const Settings &settings, srp_grid grid);
     void interpolate(const Settings &settings, const srp_table *table, const char *field);
+    void warn_of_sampling(double largest, double sampling) const;
     void warn_of_table(const Settings &settings, const srp_table *table) const;
     void tell_of_demand() const;
     static void forward(void *user, const srp_error *what);

@@ -435,13 +435,9 @@ Real HighFidelitySRP::mass_of(Integer satellite) {
                : scObjs[size_t(satellite)]->GetRealParameter("TotalMass");
 }
 
-// Rows 3 to 5, columns 0 to 2 of the satellite's block; those before it may be larger than 6 x 6.
-void HighFidelitySRP::add_partials(Integer satellite, const double da_dr[3][3]) {
-    Integer before = 0;
-    for (Integer i = 0; i < satellite; ++i) {
-        const Integer n = scObjs[size_t(i)]->GetIntegerParameter("FullSTMRowCount");
-        before += n * n;
-    }
+// Rows 3 to 5, columns 0 to 2 of the satellite's block, behind `before` numbers of others'; returns
+// how many it has: it may be larger than 6 x 6.
+Integer HighFidelitySRP::add_partials(Integer satellite, Integer before, const double da_dr[3][3]) {
     const Integer n = scObjs[size_t(satellite)]->GetIntegerParameter("FullSTMRowCount");
     for (Integer i = 0; i < 3; ++i) {
         for (Integer j = 0; j < 3; ++j) {
@@ -454,6 +450,7 @@ void HighFidelitySRP::add_partials(Integer satellite, const double da_dr[3][3]) 
             }
         }
     }
+    return n * n;
 }
 
 bool HighFidelitySRP::GetDerivatives(Real *state, Real dt, Integer order, const Integer) {
@@ -467,6 +464,7 @@ bool HighFidelitySRP::GetDerivatives(Real *state, Real dt, Integer order, const 
     const Real now = epoch + (elapsedTime + dt) / SECONDS_PER_DAY;
     const Sky sky = sky_at(now);
     const bool partials = fillSTM || fillAMatrix;
+    Integer before = 0; // numbers of partials of the satellites that are done
     std::fill(deriv, deriv + dimension, 0.0);
     for (Integer i = 0; i < cartesianCount; ++i) {
         const Integer begin = cartesianStart + 6 * i;
@@ -481,7 +479,7 @@ bool HighFidelitySRP::GetDerivatives(Real *state, Real dt, Integer order, const 
             out[2] = a.z / METRES_PER_KM;
         }
         if (partials) {
-            add_partials(i, da_dr);
+            before += add_partials(i, before, da_dr);
         }
     }
     return true;

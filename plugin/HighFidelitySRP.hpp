@@ -92,7 +92,7 @@ class HighFidelitySRP : public PhysicalModel {
     void accelerate(Spacecraft *sc, Real a1mjd, const Real *r_km, Real mass, const Sky &sky,
                     srp_vec3 *a, double (*da_dr)[3]);
     Real mass_of(Integer satellite);
-    void add_partials(Integer satellite, const double da_dr[3][3]);
+    Integer add_partials(Integer satellite, Integer before, const double da_dr[3][3]);
 
     srp_plugin::Settings settings_;
     // One for all copies, until a field of one of them is set.

@@ -4,6 +4,7 @@
 #include "render_internal.h"
 
 #include <math.h>
+#include <string.h>
 
 static const srp_render_colour UNKNOWN = {0.62F, 0.62F, 0.62F}; /* a value that is NAN */
 
@@ -91,12 +92,15 @@ static srp_render_colour colour_of(const srp_scene *scene, const srp_render_view
 void srp_render_send_colours(srp_renderer *renderer, const srp_render_view *view) {
     const srp_gl_functions *gl = &renderer->context.gl;
     const srp_scene *scene = renderer->scene;
+    bool changed = false; /* most pictures differ from the last in the camera alone */
     for (size_t i = 0; i < scene->facet_count; ++i) {
         uint32_t paint = srp_render_paint(colour_of(scene, view, i));
-        renderer->paint[4 * i] = (uint8_t)(paint >> 16);
-        renderer->paint[4 * i + 1] = (uint8_t)(paint >> 8);
-        renderer->paint[4 * i + 2] = (uint8_t)paint;
-        renderer->paint[4 * i + 3] = 255;
+        const uint8_t now[4] = {(uint8_t)(paint >> 16), (uint8_t)(paint >> 8), (uint8_t)paint, 255};
+        changed = changed || memcmp(&renderer->paint[4 * i], now, sizeof now) != 0;
+        memcpy(&renderer->paint[4 * i], now, sizeof now);
+    }
+    if (!changed) {
+        return;
     }
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 4);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, SRP_RENDER_ROW,

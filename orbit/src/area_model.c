@@ -2,6 +2,7 @@
 #include "error.h"
 #include "mat3.h"
 
+#include <srp/acceleration.h>
 #include <srp/orbit/area_model.h>
 
 #include <math.h>
@@ -54,14 +55,8 @@ srp_status srp_area_model_cannonball(double cr, double area, srp_area_model *out
 /* ---- Interpolant ---------------------------------------------------------------------------- */
 
 static int interp_eval(const void *user, srp_vec3 s, srp_vec3 *f, double (*df)[3]) {
-    srp_interp_jacobian jacobian;
-    if (srp_interp_eval(user, s, f, NULL, df != NULL ? &jacobian : NULL, NULL) != SRP_OK) {
-        return -1;
-    }
-    if (df != NULL) {
-        memcpy(df, jacobian.df, sizeof jacobian.df);
-    }
-    return 0;
+    const srp_area_source source = srp_area_source_interp(user);
+    return source.eval(source.user, s, f, df, NULL) == SRP_OK ? 0 : -1;
 }
 
 static void interp_destroy(void *user) {

@@ -3,6 +3,7 @@
 #include "error.h"
 #include "mission_internal.h"
 
+#include <srp/acceleration.h>
 #include <srp/const.h>
 #include <srp/scene.h>
 #include <srp/table.h>
@@ -159,18 +160,14 @@ typedef struct on_demand_model {
 
 static int on_demand_eval(const void *user, srp_vec3 s, srp_vec3 *f, double (*df)[3]) {
     const on_demand_model *model = user;
-    srp_interp_jacobian jacobian;
+    const srp_area_source source = srp_area_source_interp(model->interp);
     srp_error error;
-    if (srp_interp_eval(model->interp, s, f, NULL, df != NULL ? &jacobian : NULL, &error) !=
-        SRP_OK) {
+    if (source.eval(source.user, s, f, df, &error) != SRP_OK) {
         if (!atomic_flag_test_and_set(&model->failure->taken)) {
             model->failure->error = error;
             atomic_store_explicit(&model->failure->ready, true, memory_order_release);
         }
         return -1;
-    }
-    if (df != NULL) {
-        memcpy(df, jacobian.df, sizeof jacobian.df);
     }
     return 0;
 }

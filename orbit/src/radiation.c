@@ -113,6 +113,9 @@ static int radiation_eval(const void *user, const srp_force_state *state, srp_fo
     instant seen;
     answer at;
     int code = see(p, state, &seen);
+    if (code != 0 && srp_shadow_fraction(&p->shadow, state->r, state->bodies) == 0.0) {
+        return 0; /* in the dark no attitude is needed, and there may be none */
+    }
     if (code != 0 || seen.light.seen == 0.0) {
         return code;
     }

@@ -180,6 +180,34 @@ START_TEST(radiation_is_p_f_over_m) {
 }
 END_TEST
 
+static int no_attitude(const void *user, const srp_force_state *state, double matrix[3][3]) {
+    (void)user;
+    (void)state;
+    (void)matrix;
+    return -1;
+}
+
+/* An attitude may have gaps, and yaw steering has none where Sun and nadir are in line: in the dark
+ * it is not missed. */
+START_TEST(radiation_needs_no_attitude_in_the_dark) {
+    const srp_attitude attitude = {"none", 0, no_attitude, NULL, NULL};
+    srp_radiation_params params = fixture_radiation(&attitude);
+    srp_force force;
+    srp_error error;
+    assert_ok(srp_force_radiation(&params, &force, &error), error);
+    srp_vec3 bodies[SRP_CELESTIAL_COUNT];
+    srp_ephemeris_positions(sky, SRP_EARTH, 100.0, bodies);
+    const srp_vec3 n = srp_unit(bodies[SRP_SUN]);
+    srp_force_state state = {100.0, srp_vec3_scale(-4.2e7, n), V, bodies};
+    srp_force_sum sum = {.partials = false};
+    ck_assert_int_eq(force.eval(force.user, &state, &sum), 0);
+    assert_vec3_close(sum.a, srp_vec3_make(0, 0, 0), 0.0, 0.0);
+    state.r = srp_vec3_scale(4.2e7, n);
+    ck_assert_int_eq(force.eval(force.user, &state, &sum), -1);
+    srp_force_release(&force);
+}
+END_TEST
+
 START_TEST(radiation_refuses_nonsense) {
     srp_force force = {"untouched", 0, NULL, NULL, NULL};
     srp_error error;
@@ -441,6 +469,7 @@ int main(void) {
     tcase_add_loop_test(all, radiation_has_its_partials, 0, 5);
     tcase_add_loop_test(all, radiation_has_its_partials_in_penumbra, 0, 5);
     tcase_add_test(all, radiation_is_p_f_over_m);
+    tcase_add_test(all, radiation_needs_no_attitude_in_the_dark);
     tcase_add_test(all, radiation_refuses_nonsense);
     tcase_add_test(all, area_models_have_their_slopes);
     tcase_add_test(all, gmat_schemes_meet_their_nodes);
