@@ -18,6 +18,8 @@ if [ $# -eq 0 ]; then
     done
 fi
 
+# Leaks of libraries that are not ours, as for the tests.
+export LSAN_OPTIONS=suppressions=$PWD/tests/sanitizer/lsan.supp:print_suppressions=0
 status=0
 for name in "$@"; do
     found=build/fuzz/found/$name broken=build/fuzz/broken/$name
