@@ -2,7 +2,6 @@
 /* srp propagate: an orbit with the chosen model of radiation pressure. */
 #include "commands.h"
 #include "messages.h"
-#include "methods.h"
 #include "progress.h"
 #include "system.h"
 #include "track.h"
@@ -376,16 +375,8 @@ static int propagate_both(const propagate_options *options, const srp_mission *a
     return status;
 }
 
-static const srp_method *find_method(void *user, const char *name, const char *device) {
-    (void)user;
-    return cli_method_find(name, device);
-}
-
 static int propagate(const propagate_options *options, const cli_operands *operands) {
     srp_mission *a = NULL, *b = NULL;
-    const srp_log log = cli_log();
-    const srp_cache_params cache = srp_cache_params_default();
-    const srp_mission_context context = {&log, find_method, NULL, &cache};
     srp_error error;
     if (operands->count != 1) {
         return cli_usage_error("expected one file, MISSION.yaml, found %zu", operands->count);
@@ -395,12 +386,11 @@ static int propagate(const propagate_options *options, const cli_operands *opera
             "--output goes with --versus; files of one orbit are --oem, --report "
             "and --events");
     }
-    if (srp_mission_read(operands->items[0], &context, &a, &error) != SRP_OK) {
+    if (cli_mission_read(operands->items[0], &a, &error) != SRP_OK) {
         return mission_error(&error);
     }
     int status = CLI_DONE;
-    if (options->versus != NULL &&
-        srp_mission_read(options->versus, &context, &b, &error) != SRP_OK) {
+    if (options->versus != NULL && cli_mission_read(options->versus, &b, &error) != SRP_OK) {
         status = mission_error(&error);
     }
     cli_system_catch_signals();

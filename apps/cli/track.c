@@ -3,9 +3,22 @@
 
 #include "command.h"
 #include "messages.h"
+#include "methods.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+
+static const srp_method *find_method(void *user, const char *name, const char *device) {
+    (void)user;
+    return cli_method_find(name, device);
+}
+
+srp_status cli_mission_read(const char *path, srp_mission **out, srp_error *error) {
+    const srp_log log = cli_log();
+    const srp_cache_params cache = srp_cache_params_default();
+    const srp_mission_context context = {&log, find_method, NULL, &cache};
+    return srp_mission_read(path, &context, out, error);
+}
 
 static bool make_room(cli_track *to) {
     const size_t capacity = 2 * to->capacity + 256;

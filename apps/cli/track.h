@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Where a spacecraft was, row by row, and how far another was from it. */
+/* Missions that are read, where a spacecraft was, row by row, and how far another was from it. */
 #ifndef SRP_CLI_TRACK_H
 #define SRP_CLI_TRACK_H
 
@@ -19,6 +19,10 @@ void cli_track_free(cli_track *t);
 /* Rows i: b - a along the axes of a: x away from the centre, y along the orbit, z along its normal
  * [m]. */
 srp_vec3 cli_track_difference(const cli_track *a, const cli_track *b, size_t i);
+
+/* Reads a mission with all that this program has: methods of every device, and the cache. Warnings
+ * are said. Statuses of srp_mission_read(). */
+srp_status cli_mission_read(const char *path, srp_mission **out, srp_error *error);
 
 /* Can two missions be compared row by row: the same epoch, duration, output step, central body? An
  * exit status, said if not CLI_DONE. */

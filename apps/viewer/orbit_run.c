@@ -74,8 +74,8 @@ typedef struct orbit_job {
     cli_track *track; /* of that mission */
     char *path[2];
     viewer_orbit made;
-    viewer_words problem;
-    bool cancelled;
+    viewer_words problem; /* or, of a run that went well, its warnings */
+    bool good, cancelled;
 } orbit_job;
 
 static srp_status on_row(void *user, const srp_mission *mission, const srp_mission_row *row,
@@ -145,13 +145,13 @@ static void orbit_run(viewer_job *base) {
     srp_error error;
     double began = viewer_seconds();
     bool good = true;
+    viewer_words_listen(&job->problem);
     for (int k = 0; k < job->parts && good; ++k) {
-        good = srp_mission_read(job->path[k], NULL, &mission[k], &error) == SRP_OK;
+        good = cli_mission_read(job->path[k], &mission[k], &error) == SRP_OK;
         if (!good) {
             viewer_words_add_error(&job->problem, &error);
         }
     }
-    viewer_words_listen(&job->problem);
     good = good && (job->parts == 1 || cli_missions_check_pair(mission[0], mission[1]) == CLI_DONE);
     viewer_words_listen(NULL);
     good = good && run_one(job, mission[0], &track[0], &summary);
@@ -164,6 +164,7 @@ static void orbit_run(viewer_job *base) {
         sum_up(&job->made, &summary);
         job->made.seconds = viewer_seconds() - began;
     }
+    job->good = good;
     for (int k = 0; k < 2; ++k) {
         cli_track_free(&track[k]);
         srp_mission_destroy(mission[k]);
@@ -175,7 +176,7 @@ static void orbit_deliver(viewer_job *base) {
     viewer *v = job->v;
     if (job->cancelled) {
         viewer_say(v, "The mission was cancelled.");
-    } else if (job->problem.text[0] != '\0') {
+    } else if (!job->good) {
         viewer_complain(v, job->problem.text);
     } else {
         viewer_orbit *orbit = &keeper_of(v)->orbit;
@@ -184,9 +185,11 @@ static void orbit_deliver(viewer_job *base) {
         job->made.path[1] = orbit->path[1];
         *orbit = job->made;
         job->made = (viewer_orbit){.count = 0};
-        char said[64];
-        snprintf(said, sizeof said, "The mission ran in %.2f s.", orbit->seconds);
+        const char *warnings = job->problem.text;
+        char *said = g_strdup_printf("The mission ran in %.2f s.%s%s", orbit->seconds,
+                                     warnings[0] != '\0' ? "\n" : "", warnings);
         viewer_say(v, said);
+        g_free(said);
     }
     viewer_tell(v, CHANGED_ORBIT | CHANGED_BUSY);
 }
