@@ -6,6 +6,7 @@
 #include "methods.h"
 #include "numbers.h"
 #include "orbit.h"
+#include "reoptic.h"
 #include "screenshot.h"
 
 #include <math.h>
@@ -61,9 +62,6 @@ static void set_mass(viewer *v, GVariant *parameter) {
     bool good =
         viewer_setup_set_mass(v->session->setup, g_variant_get_string(parameter, NULL), &problem);
     viewer_complain(v, good ? "" : problem.text);
-    if (good && v->session->engine != NULL) {
-        v->session->engine->setup->mass = v->session->setup->mass;
-    }
     viewer_tell(v, CHANGED_SETUP | CHANGED_FORCE);
 }
 
@@ -78,6 +76,15 @@ static void set_material(viewer *v, GVariant *parameter) {
         good = viewer_setup_set_material_text(v->session->setup, text, &problem);
     }
     setup_said(v, good, &problem);
+}
+
+static void open_mtl(viewer *v, GVariant *parameter) {
+    viewer_exchange_open_mtl(v, g_variant_get_string(parameter, NULL));
+}
+
+static void choose_mtl(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_exchange_ask_mtl(v);
 }
 
 /* ---- method ---- */
@@ -302,12 +309,13 @@ static void show_table(viewer *v, GVariant *parameter) {
     choose_table(v, parameter, &v->table_shown);
 }
 
+static void reoptic(viewer *v, GVariant *parameter) {
+    (void)parameter;
+    viewer_reoptic_request(v);
+}
+
 static void clear_tables(viewer *v, GVariant *parameter) {
     (void)parameter;
-    if (viewer_fit_is_running(v)) {
-        viewer_complain(v, "Plates are being fitted to a table: cancel that first.");
-        return;
-    }
     v->table_shown = v->compared[0] = v->compared[1] = -1;
     viewer_session_clear_tables(v->session);
     viewer_tell(v, CHANGED_TABLES);
@@ -415,6 +423,8 @@ static const viewer_action ACTIONS[] = {
     {"plates", "s", NULL, "Plates file of the method nplate.", set_plates},
     {"choose-plates", NULL, NULL, "Ask for a plates file.", choose_plates},
     {"mass", "s", NULL, "Mass in kg; empty: not given.", set_mass},
+    {"mtl", "s", NULL, "Take the optics of the materials from an MTL file.", open_mtl},
+    {"choose-mtl", NULL, NULL, "Ask for an MTL file.", choose_mtl},
     {"material", "s", NULL, "NAME=RHO_S,RHO_D[,one-sided]; empty: as the files say.", set_material},
     {"method", "s", NULL, "Name of the method.", set_method},
     {"device", "s", NULL, "cpu, gl:osmesa, gl:egl.", set_device},
@@ -439,6 +449,7 @@ static const viewer_action ACTIONS[] = {
     {"compute-table", NULL, "<Control>t", "Compute a table.", compute_table},
     {"cancel", NULL, "<Control>period", "Stop what is computed.", cancel},
     {"show-table", "i", NULL, "Show the table of this number.", show_table},
+    {"reoptic", NULL, NULL, "Make one of the optics of now from the table shown.", reoptic},
     {"clear-tables", NULL, NULL, "Forget all tables.", clear_tables},
     {"open-table", "s", NULL, "Open a table from disk.", open_table},
     {"choose-table", NULL, "<Control><Shift>o", "Ask for a table.", choose_table_file},

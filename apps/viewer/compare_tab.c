@@ -15,9 +15,9 @@ enum { COLUMNS = 6 };
 
 typedef struct pane {
     viewer *v;
-    GtkWidget *choice[2], *number[CLI_DIFFERENCE_COUNT][COLUMNS], *facts, *plates, *fit;
+    GtkWidget *box, *choice[2], *number[CLI_DIFFERENCE_COUNT][COLUMNS], *facts, *plates, *fit;
     viewer_charts *charts;
-    const srp_table *shown[2];
+    viewer_table *shown[2]; /* or about to be; NULL: none */
     bool quiet;
 } pane;
 
@@ -42,50 +42,108 @@ static void show_row(pane *p, int which, const cli_difference_row *row) {
     }
 }
 
-static void show_comparison(pane *p) {
-    const viewer_session *s = p->v->session;
-    const viewer_table *a = &s->tables[p->v->compared[0]], *b = &s->tables[p->v->compared[1]];
-    cli_comparison c = {.table = {a->table, b->table},
-                        .name = {a->name, b->name},
+/* ---- the comparison, beside the window ---- */
+
+typedef struct comparison_job {
+    viewer_job job;
+    viewer *v;
+    pane *p; /* there as long as the window */
+    viewer_table *table[2];
+    bool good;
+    cli_difference difference;
+    char facts[200];
+    srp_grid grid;
+    double *value; /* (CHARTS, nodes) */
+    viewer_words problem;
+} comparison_job;
+
+static void comparison_run(viewer_job *base) {
+    comparison_job *job = (comparison_job *)base;
+    cli_comparison c = {.table = {job->table[0]->table, job->table[1]->table},
+                        .name = {job->table[0]->name, job->table[1]->name},
                         .scheme = srp_interp_find("bicubic")};
-    viewer_words problem = {""};
-    viewer_words_listen(&problem);
-    int status = cli_comparison_make(&c);
+    viewer_words_listen(&job->problem);
+    job->good = cli_comparison_make(&c) == CLI_DONE;
     viewer_words_listen(NULL);
-    if (status != CLI_DONE) {
-        viewer_complain(p->v, problem.text);
-        cli_comparison_release(&c);
-        return;
+    if (job->good) {
+        job->difference = c.difference;
+        job->grid = c.grid;
+        snprintf(job->facts, sizeof job->facts,
+                 "%zu directions, %g° × %g°, each by its solid angle; mean |f| of A %.6g m², of B "
+                 "%.6g m²",
+                 c.directions, 360.0 / (c.grid.az_count - 1), 180.0 / (c.grid.el_count - 1),
+                 c.difference.mean_a, c.difference.mean_b);
+        job->value = calloc(CHARTS * srp_grid_node_count(c.grid), sizeof *job->value);
     }
-    for (int k = 0; k < CLI_DIFFERENCE_COUNT; ++k) {
-        show_row(p, k, &c.difference.row[k]);
-    }
-    char text[200];
-    snprintf(
-        text, sizeof text,
-        "%zu directions, %g° × %g°, each by its solid angle; mean |f| of A %.6g m², of B %.6g m²",
-        c.directions, 360.0 / (c.grid.az_count - 1), 180.0 / (c.grid.el_count - 1),
-        c.difference.mean_a, c.difference.mean_b);
-    gtk_label_set_text(GTK_LABEL(p->facts), text);
-    size_t nodes = srp_grid_node_count(c.grid);
-    double *value = calloc(CHARTS * nodes, sizeof *value);
-    if (value != NULL) {
-        cli_comparison_fields(&c, value);
-        char *title = g_strdup_printf("%s minus %s", b->name, a->name);
-        viewer_charts_show(p->charts, title, c.grid, value, FIELD_NAME);
-        g_free(title);
+    if (job->value != NULL && !atomic_load(&job->job.cancel)) {
+        cli_comparison_fields(&c, job->value);
     }
     cli_comparison_release(&c);
 }
 
-static void show_nothing(pane *p) {
-    p->shown[0] = p->shown[1] = NULL;
+static void comparison_deliver(viewer_job *base) {
+    comparison_job *job = (comparison_job *)base;
+    pane *p = job->p;
+    viewer *v = job->v;
+    if (v->window == NULL || job->table[0] != p->shown[0] || job->table[1] != p->shown[1]) {
+        return; /* others have been chosen */
+    }
+    if (!job->good) {
+        gtk_label_set_text(GTK_LABEL(p->facts), NOTHING_YET);
+        viewer_complain(v, job->problem.text);
+        return;
+    }
+    for (int k = 0; k < CLI_DIFFERENCE_COUNT; ++k) {
+        show_row(p, k, &job->difference.row[k]);
+    }
+    gtk_label_set_text(GTK_LABEL(p->facts), job->facts);
+    if (job->value != NULL) {
+        char *title = g_strdup_printf("%s minus %s", job->table[1]->name, job->table[0]->name);
+        viewer_charts_show(p->charts, title, job->grid, job->value, FIELD_NAME);
+        job->value = NULL;
+        g_free(title);
+    }
+}
+
+static void comparison_release(viewer_job *base) {
+    comparison_job *job = (comparison_job *)base;
+    viewer_table_release(job->table[0]);
+    viewer_table_release(job->table[1]);
+    free(job->value);
+    free(job);
+}
+
+static void request_comparison(pane *p) {
+    comparison_job *job = g_new0(comparison_job, 1);
+    job->job = (viewer_job){
+        .run = comparison_run, .deliver = comparison_deliver, .release = comparison_release};
+    job->v = p->v;
+    job->p = p;
+    for (int k = 0; k < 2; ++k) {
+        job->table[k] = viewer_table_reference(p->shown[k]);
+    }
+    viewer_worker_cancel(p->v->requests.tables, SLOT_COMPARISON);
+    viewer_worker_submit(p->v->requests.tables, SLOT_COMPARISON, &job->job);
+    viewer_tell(p->v, CHANGED_BUSY);
+}
+
+static void set_shown(pane *p, viewer_table *a, viewer_table *b) {
+    viewer_table *const now[2] = {a, b};
+    for (int k = 0; k < 2; ++k) {
+        viewer_table *old = p->shown[k];
+        p->shown[k] = viewer_table_reference(now[k]);
+        viewer_table_release(old);
+    }
+}
+
+/* Numbers of no tables, while there are none or others are compared. */
+static void show_nothing(pane *p, const char *facts) {
     for (int k = 0; k < CLI_DIFFERENCE_COUNT; ++k) {
         for (int c = 0; c < COLUMNS; ++c) {
             gtk_label_set_text(GTK_LABEL(p->number[k][c]), "—");
         }
     }
-    gtk_label_set_text(GTK_LABEL(p->facts), NOTHING_YET);
+    gtk_label_set_text(GTK_LABEL(p->facts), facts);
     viewer_charts_show(p->charts, "", (srp_grid){0, 0}, NULL, FIELD_NAME);
 }
 
@@ -103,20 +161,11 @@ static void on_choice(GtkDropDown *choice, GParamSpec *spec, gpointer user) {
 }
 
 static void show_lists(pane *p) {
-    const viewer_session *s = p->v->session;
-    const char **names = g_new0(const char *, s->table_count + 1);
-    for (size_t i = 0; i < s->table_count; ++i) {
-        names[i] = s->tables[i].name;
-    }
     p->quiet = true;
     for (int k = 0; k < 2; ++k) {
-        int at = p->v->compared[k];
-        ui_choice_set(GTK_DROP_DOWN(p->choice[k]), names,
-                      at >= 0 ? (guint)at : GTK_INVALID_LIST_POSITION);
-        gtk_widget_set_sensitive(p->choice[k], s->table_count > 0);
+        ui_choice_set_tables(p->v, GTK_DROP_DOWN(p->choice[k]), p->v->compared[k]);
     }
     p->quiet = false;
-    g_free(names);
 }
 
 /* The newest two, until the user chooses. */
@@ -129,30 +178,47 @@ static void choose_by_default(pane *p) {
     }
 }
 
-static void on_changed(void *user, unsigned what) {
-    pane *p = user;
-    if ((what & CHANGED_BUSY) != 0) {
-        gtk_widget_set_sensitive(p->fit, p->v->compared[0] >= 0 && !viewer_fit_is_running(p->v));
-    }
-    if ((what & CHANGED_TABLES) == 0) {
-        return;
-    }
-    choose_by_default(p);
-    gtk_widget_set_sensitive(p->fit, p->v->compared[0] >= 0 && !viewer_fit_is_running(p->v));
-    show_lists(p);
-    const srp_table *now[2] = {NULL, NULL};
+/* What is chosen is compared when somebody looks. */
+static void refresh(pane *p) {
+    viewer_table *now[2] = {NULL, NULL};
     for (int k = 0; k < 2; ++k) {
         if (p->v->compared[k] >= 0) {
-            now[k] = p->v->session->tables[p->v->compared[k]].table;
+            now[k] = p->v->session->tables[p->v->compared[k]];
         }
     }
     if (now[0] == NULL || now[1] == NULL) {
-        show_nothing(p);
-    } else if (now[0] != p->shown[0] || now[1] != p->shown[1]) {
-        p->shown[0] = now[0];
-        p->shown[1] = now[1];
-        show_comparison(p);
+        set_shown(p, NULL, NULL);
+        show_nothing(p, NOTHING_YET);
+    } else if (gtk_widget_get_mapped(p->box) && (now[0] != p->shown[0] || now[1] != p->shown[1])) {
+        set_shown(p, now[0], now[1]);
+        show_nothing(p, "Comparing …");
+        request_comparison(p);
     }
+}
+
+static void on_map(GtkWidget *box, gpointer user) {
+    (void)box;
+    refresh(user);
+}
+
+static void on_changed(void *user, unsigned what) {
+    pane *p = user;
+    if ((what & (CHANGED_BUSY | CHANGED_TABLES)) != 0) {
+        choose_by_default(p);
+        gtk_widget_set_sensitive(p->fit, p->v->compared[0] >= 0 && !viewer_fit_is_running(p->v));
+    }
+    if ((what & (CHANGED_TABLES | CHANGED_ENGINE)) != 0) {
+        show_lists(p);
+    }
+    if ((what & CHANGED_TABLES) != 0) {
+        refresh(p);
+    }
+}
+
+static void free_pane(gpointer user) {
+    pane *p = user;
+    set_shown(p, NULL, NULL);
+    g_free(p);
 }
 
 /* ---- together ---- */
@@ -228,7 +294,7 @@ static GtkWidget *make_strip(pane *p) {
 GtkWidget *viewer_compare_tab(viewer *v) {
     pane *p = g_new0(pane, 1);
     p->v = v;
-    GtkWidget *box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
+    GtkWidget *box = p->box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
     p->charts = viewer_charts_create(v, "difference", 4);
     p->facts = ui_label(NOTHING_YET, "dim small");
     gtk_widget_set_name(p->facts, "comparison-facts");
@@ -239,12 +305,17 @@ GtkWidget *viewer_compare_tab(viewer *v) {
     gtk_box_append(GTK_BOX(box), p->facts);
     gtk_box_append(GTK_BOX(box), make_numbers(p));
     gtk_box_append(GTK_BOX(box), viewer_charts_widget(p->charts));
-    g_object_set_data_full(G_OBJECT(box), "pane", p, g_free);
+    g_signal_connect_after(box, "map", G_CALLBACK(on_map), p);
+    g_object_set_data_full(G_OBJECT(box), "pane", p, free_pane);
     viewer_listen(v, on_changed, p);
     return box;
 }
 
 bool viewer_comparison_save(viewer *v, const char *path, viewer_words *problem) {
+    if (viewer_worker_is_busy(v->requests.tables, SLOT_COMPARISON)) {
+        viewer_words_add(problem, "The tables are still being compared.");
+        return false;
+    }
     return viewer_charts_save(g_object_get_data(G_OBJECT(v->window), "comparison-charts"), path,
                               problem);
 }

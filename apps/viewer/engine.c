@@ -77,6 +77,34 @@ bool viewer_engine_optics(const viewer_engine *engine, size_t index, srp_optics 
     return material->known;
 }
 
+const char *viewer_engine_missing_mtl(const viewer_engine *engine) {
+    if (engine == NULL || engine->shape == NULL || engine->optics_known) {
+        return NULL;
+    }
+    const cli_info *info = &engine->shape->info;
+    for (size_t i = 0; i < info->library_count; ++i) {
+        if (info->libraries[i].missing) {
+            return info->libraries[i].path;
+        }
+    }
+    return NULL;
+}
+
+/* Before the materials that have no optics, the file that would have had them. */
+static void ask_for_mtl(viewer_engine *engine) {
+    const char *missing = viewer_engine_missing_mtl(engine);
+    char line[VIEWER_WORDS_SIZE];
+    if (missing == NULL) {
+        return;
+    }
+    snprintf(line, sizeof line, "the MTL file %.1000s does not exist: another can be taken by Find MTL",
+             missing);
+    viewer_words said = engine->problem;
+    engine->problem.text[0] = '\0';
+    viewer_words_add(&engine->problem, line);
+    viewer_words_add(&engine->problem, said.text);
+}
+
 static srp_status join_optics(viewer_engine *engine, srp_error *error) {
     srp_materials *materials = NULL;
     srp_status status = srp_materials_create(&materials, error);
@@ -94,6 +122,7 @@ static srp_status join_optics(viewer_engine *engine, srp_error *error) {
         }
         status = srp_materials_set(materials, info->materials[i].name, optics, false, error);
     }
+    ask_for_mtl(engine);
     if (status == SRP_OK) {
         status = srp_scene_from_mesh(info->mesh, materials, &engine->mesh, error);
     }
@@ -163,6 +192,7 @@ viewer_engine *viewer_engine_make(const viewer_setup *setup, viewer_shape *known
         return NULL;
     }
     atomic_init(&engine->references, 1);
+    copy->mass = NAN; /* changes without a new engine; whoever wants it asks the session */
     engine->setup = copy;
     viewer_words_listen(&engine->problem);
     if (setup->model != NULL && !reload && known != NULL && same_text(known->path, setup->model) &&
@@ -201,7 +231,7 @@ void viewer_engine_release(viewer_engine *engine) {
     srp_scene_destroy((srp_scene *)own);
     srp_scene_destroy(engine->mesh);
     viewer_shape_release(engine->shape);
-    viewer_setup_destroy(engine->setup);
+    viewer_setup_destroy((viewer_setup *)engine->setup);
     free(engine);
 }
 

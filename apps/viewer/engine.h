@@ -28,10 +28,10 @@ void viewer_shape_release(viewer_shape *shape);
 
 typedef struct viewer_engine {
     atomic_int references;
-    viewer_setup *setup; /* that it was made for */
-    viewer_shape *shape; /* NULL: no OBJ file, or it could not be read */
-    srp_scene *mesh;     /* the shape with its optics, for pictures; unknown materials absorb all */
-    bool optics_known;   /* of all materials of the mesh */
+    const viewer_setup *setup; /* that it was made for, but for the mass, which it does not need */
+    viewer_shape *shape;       /* NULL: no OBJ file, or it could not be read */
+    srp_scene *mesh;   /* the shape with its optics, for pictures; unknown materials absorb all */
+    bool optics_known; /* of all materials of the mesh */
     const srp_method *method; /* NULL: the setup names none that works */
     srp_method_params params;
     srp_prepared *prepared; /* NULL: `problem` says why */
@@ -48,6 +48,10 @@ void viewer_engine_release(viewer_engine *engine);
 /* The optics that count for material `index` of the shape: what the user said, else the MTL; false:
  * nobody knows. */
 bool viewer_engine_optics(const viewer_engine *engine, size_t index, srp_optics *out);
+
+/* The MTL file that the shape names and that is not there, while a material has no optics; else
+ * NULL, also for no engine. */
+const char *viewer_engine_missing_mtl(const viewer_engine *engine);
 
 /* What the Sun does from one direction. */
 typedef struct viewer_force {

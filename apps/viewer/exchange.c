@@ -4,6 +4,7 @@
 #include "chart.h"
 #include "comparison_view.h"
 #include "fit.h"
+#include "messages.h"
 #include "numbers.h"
 #include "orbit.h"
 #include "outputs.h"
@@ -33,6 +34,50 @@ void viewer_exchange_open(viewer *v, const char *path) {
     g_free(full);
 }
 
+/* What `library` has for the materials of the engine's shape goes into the setup. How many. */
+static size_t take_optics(viewer *v, const srp_materials *library, viewer_words *problem) {
+    const cli_info *info = &v->session->engine->shape->info;
+    size_t count = 0;
+    for (size_t i = 0; i < info->material_count; ++i) {
+        srp_optics optics;
+        const char *name = info->materials[i].name;
+        count += srp_materials_find(library, name, &optics) &&
+                 viewer_setup_set_material(v->session->setup, name, optics, problem);
+    }
+    return count;
+}
+
+void viewer_exchange_open_mtl(viewer *v, const char *path) {
+    const viewer_engine *engine = v->session->engine;
+    srp_materials *library = NULL;
+    srp_error error;
+    viewer_words problem = {""};
+    if (engine == NULL || engine->shape == NULL) {
+        viewer_complain(v, "There is no spacecraft yet: open one.");
+        return;
+    }
+    viewer_words_listen(&problem);
+    const srp_log log = cli_log();
+    bool good = srp_materials_create(&library, &error) == SRP_OK &&
+                srp_materials_read_mtl(library, path, &log, &error) == SRP_OK;
+    viewer_words_listen(NULL);
+    if (!good) {
+        viewer_words_add_error(&problem, &error);
+    } else if (take_optics(v, library, &problem) == 0) {
+        char *said = g_strdup_printf("%s: has optics for none of the materials of %s", path,
+                                     engine->shape->path);
+        viewer_words_add(&problem, said);
+        g_free(said);
+        good = false;
+    }
+    srp_materials_destroy(library);
+    viewer_complain(v, problem.text);
+    if (good) {
+        viewer_tell(v, CHANGED_SETUP);
+        viewer_request_engine(v, false);
+    }
+}
+
 void viewer_exchange_open_table(viewer *v, const char *path) {
     viewer_words problem = {""};
     srp_table *table = NULL;
@@ -48,7 +93,7 @@ void viewer_exchange_open_table(viewer *v, const char *path) {
     char *base = g_path_get_basename(path);
     snprintf(name, sizeof name, "%zu: %.100s (%s)", v->session->table_count + 1, base, summary);
     g_free(base);
-    viewer_table entry = {table, viewer_text_copy(name), NULL, viewer_text_copy(path)};
+    viewer_table entry = {table, viewer_text_copy(name), NULL, viewer_text_copy(path), 0};
     if (viewer_session_add_table(v->session, entry)) {
         v->table_shown = (int)v->session->table_count - 1;
     }
@@ -80,7 +125,7 @@ static void save_table(viewer *v, const char *path) {
         viewer_complain(v, "There is no table yet: compute or open one.");
         return;
     }
-    viewer_table *entry = &v->session->tables[v->table_shown];
+    viewer_table *entry = v->session->tables[v->table_shown];
     if (write_table(entry, path, &problem) != CLI_DONE) {
         viewer_complain(v, problem.text);
         return;
@@ -188,6 +233,23 @@ void viewer_exchange_ask_open(viewer *v) {
 void viewer_exchange_ask_plates(viewer *v) {
     static const char *const patterns[] = {"*.plates", "*.txt", NULL};
     ask(v, "Open Plates", "plates", GTK_FILE_CHOOSER_ACTION_OPEN, "Plates", patterns);
+}
+
+void viewer_exchange_ask_mtl(viewer *v) {
+    static const char *const patterns[] = {"*.mtl", "*.MTL", NULL};
+    ask(v, "Find the MTL File", "mtl", GTK_FILE_CHOOSER_ACTION_OPEN, "Wavefront MTL", patterns);
+}
+
+void viewer_exchange_miss_mtl(viewer *v) {
+    static const char KEY[] = "mtl-asked-for"; /* the spacecraft */
+    const viewer_engine *engine = v->session->engine;
+    GObject *place = G_OBJECT(v->application);
+    if (v->scripted || v->window == NULL || viewer_engine_missing_mtl(engine) == NULL ||
+        g_strcmp0(g_object_get_data(place, KEY), engine->shape->path) == 0) {
+        return;
+    }
+    g_object_set_data_full(place, KEY, g_strdup(engine->shape->path), g_free);
+    viewer_exchange_ask_mtl(v);
 }
 
 void viewer_exchange_ask_table(viewer *v) {

@@ -7,6 +7,10 @@
 
 /* Opens an OBJ file. What was said of the materials of another file is forgotten. */
 void viewer_exchange_open(viewer *v, const char *path);
+/* Takes the optics of the spacecraft's materials from an MTL file, as if they were typed. */
+void viewer_exchange_open_mtl(viewer *v, const char *path);
+/* Asks for the MTL file that a newly opened spacecraft names and lacks; once, and no script. */
+void viewer_exchange_miss_mtl(viewer *v);
 /* Reads a table and puts it into the list. */
 void viewer_exchange_open_table(viewer *v, const char *path);
 /* Saves what the tab shows: the ending chooses between a table (.nc, .spo, .txt) and its figure
@@ -14,6 +18,7 @@ void viewer_exchange_open_table(viewer *v, const char *path);
 void viewer_exchange_save(viewer *v, const char *path);
 
 void viewer_exchange_ask_open(viewer *v);
+void viewer_exchange_ask_mtl(viewer *v);
 void viewer_exchange_ask_plates(viewer *v);
 void viewer_exchange_ask_table(viewer *v);
 void viewer_exchange_ask_save(viewer *v);

@@ -19,8 +19,7 @@ typedef struct keeper {
 typedef struct fit_job {
     viewer_job job;
     viewer *v;
-    const srp_table *from; /* tables of a session stay */
-    char *name;
+    viewer_table *from;
     unsigned plates;
     cli_plate_fit fit;
     srp_table *table; /* what the plates give */
@@ -63,7 +62,7 @@ static size_t wanted_plates(cli_plate_fit *fit) {
 
 static srp_status fill_table(fit_job *job, size_t count, srp_error *error) {
     const srp_table_progress progress = {report, job};
-    const srp_table_info *info = srp_table_get_info(job->from);
+    const srp_table_info *info = srp_table_get_info(job->from->table);
     srp_method_params params = srp_method_params_default();
     srp_scene *scene = NULL;
     srp_prepared *prepared = NULL;
@@ -72,7 +71,8 @@ static srp_status fill_table(fit_job *job, size_t count, srp_error *error) {
         status = srp_method_prepare(&srp_method_nplate, scene, &params, &prepared, error);
     }
     if (status == SRP_OK) {
-        status = srp_table_create(prepared, srp_table_grid(job->from), false, &job->table, error);
+        status =
+            srp_table_create(prepared, srp_table_grid(job->from->table), false, &job->table, error);
     }
     if (status == SRP_OK) {
         status =
@@ -92,14 +92,15 @@ static void fit_run(viewer_job *base) {
     srp_vec3 normals[CLI_NORMALS_MAX];
     srp_error error;
     double began = viewer_seconds();
-    if (!cli_samples_take(job->from, srp_table_grid(job->from), false, &samples)) {
+    if (!cli_samples_take(job->from->table, srp_table_grid(job->from->table), false, &samples)) {
         viewer_words_add(&job->problem, "no memory for the fit");
         return;
     }
     viewer_words_listen(&job->problem);
-    int status = cli_table_search(job->from, job->name, &samples, job->plates, normals);
+    int status =
+        cli_table_search(job->from->table, job->from->name, &samples, job->plates, normals);
     if (status == CLI_DONE && !atomic_load(&job->job.cancel)) {
-        status = cli_table_fit(job->name, &samples, job->plates, normals, &job->fit);
+        status = cli_table_fit(job->from->name, &samples, job->plates, normals, &job->fit);
     }
     viewer_words_listen(NULL);
     cli_samples_free(&samples);
@@ -128,7 +129,8 @@ static void keep_plates(fit_job *job) {
     free(k->about);
     k->plates = copy;
     k->count = job->fit.count;
-    char *about = g_strdup_printf("plates fitted to %s by srp-viewer " SRP_VERSION, job->name);
+    char *about =
+        g_strdup_printf("plates fitted to %s by srp-viewer " SRP_VERSION, job->from->name);
     k->about = viewer_text_copy(about);
     g_free(about);
 }
@@ -142,9 +144,9 @@ static void fit_deliver(viewer_job *base) {
     } else {
         char name[256];
         snprintf(name, sizeof name, "%zu: %zu plates fitted to %.150s", v->session->table_count + 1,
-                 job->fit.count, job->name);
+                 job->fit.count, job->from->name);
         keep_plates(job);
-        viewer_table table = {job->table, viewer_text_copy(name), NULL, NULL};
+        viewer_table table = {job->table, viewer_text_copy(name), NULL, NULL, 0};
         job->table = NULL;
         if (viewer_session_add_table(v->session, table)) {
             v->compared[1] = (int)v->session->table_count - 1;
@@ -161,7 +163,7 @@ static void fit_release(viewer_job *base) {
     fit_job *job = (fit_job *)base;
     cli_plate_fit_free(&job->fit);
     srp_table_destroy(job->table);
-    free(job->name);
+    viewer_table_release(job->from);
     free(job);
 }
 
@@ -174,12 +176,10 @@ void viewer_fit_request(viewer *v, unsigned plates) {
         viewer_complain(v, "There is no table A yet: compute or open one.");
         return;
     }
-    const viewer_table *a = &v->session->tables[v->compared[0]];
     fit_job *job = g_new0(fit_job, 1);
     job->job = (viewer_job){.run = fit_run, .deliver = fit_deliver, .release = fit_release};
     job->v = v;
-    job->from = a->table;
-    job->name = viewer_text_copy(a->name);
+    job->from = viewer_table_reference(v->session->tables[v->compared[0]]);
     job->plates = plates < 1 ? 1 : plates > CLI_NORMALS_MAX ? CLI_NORMALS_MAX : plates;
     viewer_worker_cancel(v->requests.batch, SLOT_FIT);
     viewer_worker_submit(v->requests.batch, SLOT_FIT, &job->job);

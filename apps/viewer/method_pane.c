@@ -109,18 +109,18 @@ static GtkWidget *parameter(pane *p, int option) {
     const cli_option *o = &cli_group_method.options[option];
     GtkWidget *entry =
         ui_entry(p->v, o->name, option == METHOD_WINDOW ? 14 : 7, "parameter", o->name);
-    char buffer[32];
-    char *label = g_strdup(o->name), *tip = g_strdup_printf("--%s %s", o->name, o->value);
-    label[0] = g_ascii_toupper(label[0]);
+    char buffer[32], label[48], help[VIEWER_WORDS_SIZE];
+    viewer_words_method_field(option, label, sizeof label);
+    viewer_words_for_window(o->help, help, sizeof help);
+    char *tip = g_strdup_printf("%s: %s (srp: --%s)", label, o->value, o->name);
     gtk_entry_set_placeholder_text(GTK_ENTRY(entry), default_of(option, buffer, sizeof buffer));
     ui_entry_show(entry, p->v->session->setup->method_option[option]);
     GtkWidget *box = ui_box(GTK_ORIENTATION_HORIZONTAL, 4);
     GtkWidget *words = ui_mnemonic(label, entry);
     gtk_box_append(GTK_BOX(box), words);
     gtk_box_append(GTK_BOX(box), entry);
-    gtk_box_append(GTK_BOX(box), ui_explanation(tip, o->help));
+    gtk_box_append(GTK_BOX(box), ui_explanation(tip, help));
     g_object_set_data(G_OBJECT(box), "entry", entry);
-    g_free(label);
     g_free(tip);
     return box;
 }
@@ -195,9 +195,13 @@ static void show_boxes(GtkWidget *label, int filled) {
 
 static void show_probe(pane *p) {
     const viewer_probe *probe = &p->v->requests.probe;
-    char accuracy[96] = "not known", speed[96] = "…";
+    const char *otherwise = probe->state == PROBE_RUNS ? "measuring …" : "not known";
+    char accuracy[96], speed[96];
     int exact = 0, fast = 0;
-    if (probe->known) {
+    snprintf(accuracy, sizeof accuracy, "%s", otherwise);
+    snprintf(speed, sizeof speed, "%s", otherwise);
+    if (probe->state == PROBE_KNOWN) {
+        snprintf(accuracy, sizeof accuracy, "not known");
         fast = boxes_of(1.0 / probe->seconds, 1.0);
         snprintf(speed, sizeof speed, "%.3g directions/s", 1.0 / probe->seconds);
         if (probe->error == 0.0) {

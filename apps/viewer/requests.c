@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "requests.h"
 
+#include "exchange.h"
 #include "numbers.h"
 #include "viewer.h"
 
@@ -12,19 +13,22 @@
 void viewer_requests_begin(viewer *v) {
     v->requests.live = viewer_worker_create("live", g_main_context_default());
     v->requests.batch = viewer_worker_create("batch", g_main_context_default());
+    v->requests.tables = viewer_worker_create("tables", g_main_context_default());
 }
 
 void viewer_requests_end(viewer *v) {
     viewer_worker_destroy(v->requests.live);
     viewer_worker_destroy(v->requests.batch);
-    v->requests.live = v->requests.batch = NULL;
+    viewer_worker_destroy(v->requests.tables);
+    v->requests.live = v->requests.batch = v->requests.tables = NULL;
 }
 
 bool viewer_requests_busy(const viewer *v) {
     bool busy = false;
     for (unsigned slot = 0; slot < VIEWER_SLOTS; ++slot) {
         busy = busy || viewer_worker_is_busy(v->requests.live, slot) ||
-               viewer_worker_is_busy(v->requests.batch, slot);
+               viewer_worker_is_busy(v->requests.batch, slot) ||
+               viewer_worker_is_busy(v->requests.tables, slot);
     }
     return busy;
 }
@@ -57,14 +61,20 @@ static void engine_deliver(viewer_job *base) {
     viewer_session_set_engine(v->session, job->made);
     const viewer_engine *engine = job->made;
     job->made = NULL;
-    v->requests.probe.known = false;
-    if (engine->problem.text[0] != '\0') {
-        viewer_complain(v, engine->problem.text);
-    }
+    v->requests.probe = (viewer_probe){.state = PROBE_NONE};
+    /* What was said of the engine before counts no more; of one that a newer one follows, nothing
+     * is said. */
+    bool newest = !viewer_worker_is_busy(v->requests.live, SLOT_ENGINE);
+    viewer_complain_of_model(v, newest ? engine->problem.text : "");
     viewer_tell(v, CHANGED_ENGINE | CHANGED_FORCE | CHANGED_ARROWS | CHANGED_PROBE | CHANGED_BUSY);
     if (engine->prepared != NULL) {
         viewer_request_force(v);
         request_probe(v);
+    } else {
+        viewer_worker_cancel(v->requests.batch, SLOT_PROBE);
+    }
+    if (newest) {
+        viewer_exchange_miss_mtl(v);
     }
 }
 
@@ -121,7 +131,7 @@ static void force_deliver(viewer_job *base) {
         return; /* of a method that was */
     }
     if (!job->good) {
-        viewer_complain(v, job->problem.text);
+        viewer_complain_of_model(v, job->problem.text);
         return;
     }
     if (!viewer_session_set_force(v->session, &job->force)) {
@@ -198,7 +208,7 @@ static double error_of(const viewer_force *force, const srp_prepared *truth) {
 
 static void probe_run(viewer_job *base) {
     probe_job *job = (probe_job *)base;
-    double seconds[PROBE_DIRECTIONS], began = viewer_seconds(), worst = 0.0;
+    double seconds[PROBE_DIRECTIONS], began = viewer_seconds(), worst = NAN;
     size_t n = 0;
     viewer_words problem = {""};
     srp_prepared *truth = truth_of(job->engine);
@@ -218,13 +228,14 @@ static void probe_run(viewer_job *base) {
     if (n > 0) {
         qsort(seconds, n, sizeof *seconds, by_size);
         bool from_plates = truth == NULL && (job->engine->method->shapes & SRP_SHAPE_MESH) == 0;
-        job->found = (viewer_probe){true, seconds[n / 2], from_plates ? NAN : worst, truth != NULL};
+        job->found =
+            (viewer_probe){PROBE_KNOWN, seconds[n / 2], from_plates ? NAN : worst, truth != NULL};
     }
 }
 
 static void probe_deliver(viewer_job *base) {
     probe_job *job = (probe_job *)base;
-    if (job->engine == job->v->session->engine && job->found.known) {
+    if (job->engine == job->v->session->engine) {
         job->v->requests.probe = job->found;
         viewer_tell(job->v, CHANGED_PROBE);
     }
@@ -243,6 +254,8 @@ static void request_probe(viewer *v) {
     job->engine = viewer_engine_reference(v->session->engine);
     viewer_worker_cancel(v->requests.batch, SLOT_PROBE);
     viewer_worker_submit(v->requests.batch, SLOT_PROBE, &job->job);
+    v->requests.probe.state = PROBE_RUNS;
+    viewer_tell(v, CHANGED_PROBE);
 }
 
 /* ---- tables ---- */
@@ -252,6 +265,7 @@ typedef struct table_job {
     viewer *v;
     viewer_engine *engine;
     srp_grid grid;
+    double mass;
     char *title, *command;
     srp_table *table;
     srp_status status;
@@ -274,7 +288,7 @@ static void table_run(viewer_job *base) {
     job->status = srp_table_create(engine->prepared, job->grid, basis, &job->table, &job->error);
     if (job->status == SRP_OK) {
         job->status = srp_table_describe(job->table, job->title, job->command, engine->setup->light,
-                                         engine->setup->mass, &job->error);
+                                         job->mass, &job->error);
     }
     if (job->status == SRP_OK) {
         job->status = srp_table_fill(job->table, engine->prepared, &progress, &job->error);
@@ -293,7 +307,7 @@ static void table_deliver(viewer_job *base) {
         snprintf(name, sizeof name, "%zu: %.100s, %s, %g° × %g°", v->session->table_count + 1,
                  job->title, job->engine->method->name, 360.0 / (job->grid.az_count - 1),
                  180.0 / (job->grid.el_count - 1));
-        viewer_table table = {job->table, viewer_text_copy(name), job->command, NULL};
+        viewer_table table = {job->table, viewer_text_copy(name), job->command, NULL, 0};
         job->table = NULL;
         job->command = NULL;
         if (viewer_session_add_table(v->session, table)) {
@@ -334,12 +348,15 @@ static char *title_of(const viewer_setup *setup, const srp_method *method) {
 }
 
 static char *command_of(const viewer *v) {
-    char az[CLI_NUMBER_SIZE], el[CLI_NUMBER_SIZE];
-    char output[] = "-o", file[] = "table.nc", az_step[] = "--az-step", el_step[] = "--el-step";
+    char az[CLI_NUMBER_SIZE], el[CLI_NUMBER_SIZE], kg[CLI_NUMBER_SIZE];
+    char output[] = "-o", file[] = "table.nc", az_step[] = "--az-step", el_step[] = "--el-step",
+         mass[] = "--mass";
     cli_write_number(v->az_step_deg, az);
     cli_write_number(v->el_step_deg, el);
-    char *const extra[] = {az_step, az, el_step, el, output, file};
-    return viewer_setup_command(v->session->engine->setup, "table", extra, 6);
+    char *const extra[] = {az_step, az, el_step, el, output, file, mass, kg};
+    bool massive = !isnan(v->session->setup->mass);
+    cli_write_number(v->session->setup->mass, kg);
+    return viewer_setup_command(v->session->engine->setup, "table", extra, massive ? 8 : 6);
 }
 
 void viewer_request_table(viewer *v) {
@@ -361,6 +378,7 @@ void viewer_request_table(viewer *v) {
     job->v = v;
     job->engine = viewer_engine_reference(engine);
     job->grid = grid;
+    job->mass = v->session->setup->mass;
     job->title = title_of(engine->setup, engine->method);
     job->command = command_of(v);
     atomic_store(&v->requests.table.done, 0);

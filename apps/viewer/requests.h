@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What is computed beside the window: engines and forces at once, tables and what else takes long
- * on a second thread. */
+ * on a second thread, and what is made of tables on a third. */
 #ifndef SRP_VIEWER_REQUESTS_H
 #define SRP_VIEWER_REQUESTS_H
 
@@ -13,10 +13,16 @@
 typedef struct viewer viewer;
 
 /* What a quick look at the method found, on this machine and this model. */
+typedef enum viewer_probe_state {
+    PROBE_NONE, /* there is nothing to measure, or it could not be measured */
+    PROBE_RUNS,
+    PROBE_KNOWN
+} viewer_probe_state;
+
 typedef struct viewer_probe {
-    bool known;
-    double seconds;     /* for one direction, median */
-    double error;       /* relative, of |f|: the largest that was seen; NAN: not known */
+    viewer_probe_state state; /* the rest is of PROBE_KNOWN */
+    double seconds;           /* for one direction, median */
+    double error;             /* relative, of |f|: the largest that was seen; NAN: not known */
     bool against_exact; /* the error is the distance from the method exact, not the method's own */
 } viewer_probe;
 
@@ -28,9 +34,11 @@ typedef struct viewer_progress {
 
 enum { SLOT_ENGINE, SLOT_FORCE };                      /* of `live` */
 enum { SLOT_TABLE, SLOT_ORBIT, SLOT_FIT, SLOT_PROBE }; /* of `batch` */
+enum { SLOT_COMPARISON, SLOT_REOPTIC };                /* of `tables` */
 
 typedef struct viewer_requests {
     viewer_worker *live, *batch;
+    viewer_worker *tables; /* what is done to tables that are there, and takes seconds at most */
     viewer_progress table;
     viewer_probe probe;
 } viewer_requests;

@@ -4,6 +4,7 @@
 #include <srp/const.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -74,11 +75,25 @@ viewer_session *viewer_session_create(void) {
     return session;
 }
 
-static void free_table(viewer_table *table) {
+viewer_table *viewer_table_reference(viewer_table *table) {
+    if (table != NULL) {
+        atomic_fetch_add(&table->references, 1);
+    }
+    return table;
+}
+
+static void free_contents(viewer_table *table) {
     srp_table_destroy(table->table);
     free(table->name);
     free(table->command);
     free(table->path);
+}
+
+void viewer_table_release(viewer_table *table) {
+    if (table != NULL && atomic_fetch_sub(&table->references, 1) == 1) {
+        free_contents(table);
+        free(table);
+    }
 }
 
 void viewer_session_destroy(viewer_session *session) {
@@ -86,7 +101,7 @@ void viewer_session_destroy(viewer_session *session) {
         return;
     }
     viewer_session_clear_tables(session);
-    free(session->tables);
+    free((void *)session->tables);
     free(session->arrows);
     viewer_engine_release(session->engine);
     viewer_setup_destroy(session->setup);
@@ -208,20 +223,64 @@ double viewer_session_median_latency(const viewer_session *session) {
 /* ---- tables ---- */
 
 bool viewer_session_add_table(viewer_session *session, viewer_table table) {
-    viewer_table *grown =
-        realloc(session->tables, (session->table_count + 1) * sizeof *session->tables);
-    if (grown == NULL) {
-        free_table(&table);
+    viewer_table **grown =
+        realloc((void *)session->tables, (session->table_count + 1) * sizeof *session->tables);
+    viewer_table *entry = malloc(sizeof *entry);
+    session->tables = grown != NULL ? grown : session->tables;
+    if (grown == NULL || entry == NULL) {
+        free(entry);
+        free_contents(&table);
         return false;
     }
-    session->tables = grown;
-    session->tables[session->table_count++] = table;
+    entry->table = table.table;
+    entry->name = table.name;
+    entry->command = table.command;
+    entry->path = table.path;
+    atomic_init(&entry->references, 1);
+    session->tables[session->table_count++] = entry;
     return true;
 }
 
 void viewer_session_clear_tables(viewer_session *session) {
     for (size_t i = 0; i < session->table_count; ++i) {
-        free_table(&session->tables[i]);
+        viewer_table_release(session->tables[i]);
     }
     session->table_count = 0;
+}
+
+/* ---- tables and optics ---- */
+
+bool viewer_session_table_is_old(const viewer_session *session, size_t index) {
+    const srp_table_info *info = srp_table_get_info(session->tables[index]->table);
+    const viewer_engine *engine = session->engine;
+    return engine != NULL && engine->mesh != NULL && engine->optics_known &&
+           strcmp(info->shape_hash, srp_scene_shape_hash(engine->mesh)) == 0 &&
+           strcmp(info->optics_hash, srp_scene_optics_hash(engine->mesh)) != 0;
+}
+
+char *viewer_session_table_label(const viewer_session *session, size_t index) {
+    static const char old[] = " — of other optics";
+    const char *name = session->tables[index]->name;
+    size_t size = (name != NULL ? strlen(name) : 0) + sizeof old;
+    char *label = malloc(size);
+    if (label != NULL) {
+        snprintf(label, size, "%s%s", name != NULL ? name : "",
+                 viewer_session_table_is_old(session, index) ? old : "");
+    }
+    return label;
+}
+
+srp_status viewer_table_reoptic(const viewer_table *table, const viewer_engine *engine,
+                                srp_table **out, srp_error *error) {
+    srp_materials *materials = NULL;
+    srp_status status = srp_materials_create(&materials, error);
+    for (size_t i = 0; status == SRP_OK && i < srp_scene_material_count(engine->mesh); ++i) {
+        status = srp_materials_set(materials, srp_scene_material_name(engine->mesh, i),
+                                   srp_scene_material_optics(engine->mesh, i), false, error);
+    }
+    if (status == SRP_OK) {
+        status = srp_table_reoptic(table->table, materials, false, out, error);
+    }
+    srp_materials_destroy(materials);
+    return status;
 }

@@ -43,12 +43,17 @@ typedef struct viewer_arrow {
 
 /* ---- tables ---- */
 
+/* Its numbers never change; whoever reads them on another thread holds a reference. */
 typedef struct viewer_table {
     srp_table *table;
-    char *name;    /* what lists show */
+    char *name;    /* what lists show, but for what viewer_session_table_label() adds */
     char *command; /* that computes it; NULL: it came from a file */
     char *path;    /* where it is on disk; NULL: nowhere yet */
+    atomic_int references;
 } viewer_table;
+
+viewer_table *viewer_table_reference(viewer_table *table); /* may be NULL, as the next */
+void viewer_table_release(viewer_table *table);
 
 /* ---- the session ---- */
 
@@ -61,7 +66,7 @@ typedef struct viewer_session {
     bool recording;
     viewer_arrow *arrows;
     size_t arrow_count, arrow_room;
-    viewer_table *tables;
+    viewer_table **tables;
     size_t table_count;
     double latency[64]; /* slider to new arrow [s], a ring of the last ones */
     size_t latency_count;
@@ -89,7 +94,16 @@ double viewer_session_median_latency(const viewer_session *session);
 
 /* Takes table, name, command and path over; false, and they are freed, without memory. */
 bool viewer_session_add_table(viewer_session *session, viewer_table table);
-/* Forgets all tables; nobody may be reading one. */
+/* Forgets all tables. */
 void viewer_session_clear_tables(viewer_session *session);
+
+/* Whether a table is of the shape that is shown, but of other optics than its materials have now.
+ */
+bool viewer_session_table_is_old(const viewer_session *session, size_t index);
+/* What lists show of it; freed by free(), NULL without memory. */
+char *viewer_session_table_label(const viewer_session *session, size_t index);
+/* The table under the optics that the materials have now, by srp_table_reoptic(). */
+srp_status viewer_table_reoptic(const viewer_table *table, const viewer_engine *engine,
+                                srp_table **out, srp_error *error);
 
 #endif

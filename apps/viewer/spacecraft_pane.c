@@ -10,7 +10,7 @@
 typedef struct pane {
     viewer *v;
     GtkWidget *name, *facts, *report, *report_words, *materials, *material_rows;
-    GtkWidget *mass, *reference, *unit, *plates;
+    GtkWidget *mass, *reference, *unit, *plates, *mtl;
     viewer_engine *shown; /* the engine whose materials are listed */
 } pane;
 
@@ -20,7 +20,9 @@ static void show_report(pane *p, const viewer_shape *shape) {
     GString *words = g_string_new("");
     size_t count = shape != NULL ? shape->info.finding_count : 0;
     for (size_t i = 0; i < count; ++i) {
-        g_string_append_printf(words, "%s• %s", i > 0 ? "\n" : "", shape->info.findings[i].text);
+        char text[VIEWER_WORDS_SIZE];
+        viewer_words_for_window(shape->info.findings[i].text, text, sizeof text);
+        g_string_append_printf(words, "%s• %s", i > 0 ? "\n" : "", text);
     }
     if (count == 0) {
         g_string_append(words, shape != NULL ? "Nothing odd about this mesh: closed, or open as a "
@@ -130,6 +132,38 @@ static void add_row(pane *p, const viewer_engine *engine, size_t index, int at) 
     r->quiet = false;
 }
 
+/* Shows what came from elsewhere, where the user is not typing. */
+static void refresh_row(row *r, const viewer_engine *engine, size_t index) {
+    srp_optics optics;
+    if (!viewer_engine_optics(engine, index, &optics)) {
+        return;
+    }
+    GtkSpinButton *spin[2] = {GTK_SPIN_BUTTON(r->rho_s), GTK_SPIN_BUTTON(r->rho_d)};
+    const double value[2] = {optics.rho_s, optics.rho_d};
+    r->quiet = true;
+    for (int k = 0; k < 2; ++k) {
+        bool typing = gtk_widget_get_state_flags(GTK_WIDGET(spin[k])) & GTK_STATE_FLAG_FOCUS_WITHIN;
+        if (!typing && fabs(gtk_spin_button_get_value(spin[k]) - value[k]) > 5e-5) {
+            gtk_spin_button_set_value(spin[k], value[k]);
+        }
+    }
+    gtk_check_button_set_active(GTK_CHECK_BUTTON(r->one_sided), optics.one_sided);
+    r->quiet = false;
+}
+
+static void refresh_rows(pane *p, const viewer_engine *engine) {
+    const cli_info *info = &engine->shape->info;
+    for (GtkWidget *child = gtk_widget_get_first_child(p->material_rows); child != NULL;
+         child = gtk_widget_get_next_sibling(child)) {
+        row *r = g_object_get_data(G_OBJECT(child), "row");
+        for (size_t i = 0; r != NULL && i < info->material_count; ++i) {
+            if (strcmp(r->name, info->materials[i].name) == 0) {
+                refresh_row(r, engine, i);
+            }
+        }
+    }
+}
+
 /* The rows stay as long as they are of the same materials, since the user may be typing in one. */
 static void show_materials(pane *p, viewer_engine *engine) {
     bool same = p->shown != NULL && engine != NULL && p->shown->shape == engine->shape &&
@@ -137,8 +171,11 @@ static void show_materials(pane *p, viewer_engine *engine) {
                 engine->setup->material_count >= p->shown->setup->material_count;
     viewer_engine_release(p->shown);
     p->shown = viewer_engine_reference(engine);
+    gtk_widget_set_visible(p->mtl,
+                           engine != NULL && engine->shape != NULL && !engine->optics_known);
     gtk_widget_set_sensitive(p->materials, engine != NULL && engine->shape != NULL);
     if (same) {
+        refresh_rows(p, engine);
         return;
     }
     static const char *const heads[] = {"Material", "Area", "ρ specular", "ρ diffuse", "One-sided"};
@@ -283,10 +320,14 @@ GtkWidget *viewer_spacecraft_pane(viewer *v) {
     gtk_label_set_ellipsize(GTK_LABEL(p->facts), PANGO_ELLIPSIZE_END);
     gtk_widget_set_hexpand(p->facts, TRUE);
     make_popovers(p);
+    p->mtl =
+        ui_button("Find MT_L…", "choose-mtl", "Take the optics of the materials from an MTL file");
+    gtk_widget_set_name(p->mtl, "mtl");
     gtk_box_append(GTK_BOX(first), ui_label("Spacecraft", "title-word"));
     gtk_box_append(GTK_BOX(first), p->name);
     gtk_box_append(GTK_BOX(first), p->facts);
     gtk_box_append(GTK_BOX(first), p->report);
+    gtk_box_append(GTK_BOX(first), p->mtl);
     gtk_box_append(GTK_BOX(first), p->materials);
     gtk_box_append(GTK_BOX(second), ui_label("", "title-word"));
     make_fields(p, GTK_BOX(second));

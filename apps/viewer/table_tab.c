@@ -12,7 +12,7 @@ enum { PROGRESS_MS = 200 };
 
 typedef struct pane {
     viewer *v;
-    GtkWidget *az_step, *el_step, *start, *cancel, *progress, *table, *together, *facts;
+    GtkWidget *az_step, *el_step, *start, *cancel, *progress, *table, *reoptic, *together, *facts;
     viewer_charts *charts;
     const srp_table *shown;
     guint timer;
@@ -83,7 +83,7 @@ static double *fields_of(const srp_table *table) {
 
 static void show_table(pane *p) {
     int at = p->v->table_shown;
-    const viewer_table *entry = at >= 0 ? &p->v->session->tables[at] : NULL;
+    const viewer_table *entry = at >= 0 ? p->v->session->tables[at] : NULL;
     const srp_table *table = entry != NULL ? entry->table : NULL;
     gtk_widget_set_tooltip_text(p->table, entry != NULL ? entry->command : NULL);
     if (table == p->shown) {
@@ -96,17 +96,12 @@ static void show_table(pane *p) {
 }
 
 static void show_list(pane *p) {
-    const viewer_session *s = p->v->session;
-    const char **names = g_new0(const char *, s->table_count + 1);
-    for (size_t i = 0; i < s->table_count; ++i) {
-        names[i] = s->tables[i].name;
-    }
+    int at = p->v->table_shown;
     p->quiet = true;
-    ui_choice_set(GTK_DROP_DOWN(p->table), names,
-                  p->v->table_shown >= 0 ? (guint)p->v->table_shown : GTK_INVALID_LIST_POSITION);
+    ui_choice_set_tables(p->v, GTK_DROP_DOWN(p->table), at);
     p->quiet = false;
-    gtk_widget_set_sensitive(p->table, s->table_count > 0);
-    g_free(names);
+    bool old = at >= 0 && viewer_session_table_is_old(p->v->session, (size_t)at);
+    gtk_widget_set_visible(p->reoptic, old);
 }
 
 static void on_choice(GtkDropDown *choice, GParamSpec *spec, gpointer user) {
@@ -159,6 +154,10 @@ static GtkWidget *make_strip(pane *p) {
     gtk_widget_set_size_request(p->progress, 190, -1);
     p->table = ui_choice("table", G_CALLBACK(on_choice), p);
     gtk_widget_set_hexpand(p->table, TRUE);
+    p->reoptic = ui_button("_Re-optic", "reoptic",
+                           "This table is of other optics than Materials has now: make one of "
+                           "those from it, without tracing light again");
+    gtk_widget_set_name(p->reoptic, "reoptic");
     p->together = gtk_check_button_new_with_mnemonic("Turn toget_her");
     g_signal_connect(p->together, "toggled", G_CALLBACK(on_together), p);
     gtk_box_append(strip, ui_mnemonic("Step a_z [°]", p->az_step));
@@ -170,6 +169,7 @@ static GtkWidget *make_strip(pane *p) {
     gtk_box_append(strip, p->progress);
     gtk_box_append(strip, ui_mnemonic("Ta_ble", p->table));
     gtk_box_append(strip, p->table);
+    gtk_box_append(strip, p->reoptic);
     gtk_box_append(strip, ui_button("O_pen…", "choose-table", "Open a table from disk"));
     gtk_box_append(strip,
                    ui_button("Sav_e…", "choose-save",
@@ -193,7 +193,7 @@ static void on_changed(void *user, unsigned what) {
         gtk_check_button_set_active(GTK_CHECK_BUTTON(p->together), p->v->charts_together);
     }
     p->quiet = false;
-    if ((what & CHANGED_TABLES) != 0) {
+    if ((what & (CHANGED_TABLES | CHANGED_ENGINE)) != 0) {
         show_list(p);
         show_table(p);
     }

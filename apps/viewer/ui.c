@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "ui.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 GtkWidget *ui_box(GtkOrientation orientation, int spacing) {
@@ -188,6 +189,20 @@ void ui_choice_set(GtkDropDown *choice, const char *const *words, guint selected
     gtk_drop_down_set_model(choice, G_LIST_MODEL(list));
     gtk_drop_down_set_selected(choice, selected);
     g_object_unref(list);
+}
+
+void ui_choice_set_tables(viewer *v, GtkDropDown *choice, int selected) {
+    const viewer_session *s = v->session;
+    char **labels = g_new0(char *, s->table_count + 1);
+    for (size_t i = 0; i < s->table_count; ++i) {
+        char *label = viewer_session_table_label(s, i);
+        labels[i] = g_strdup(label != NULL ? label : s->tables[i]->name);
+        free(label);
+    }
+    ui_choice_set(choice, (const char *const *)labels,
+                  selected >= 0 ? (guint)selected : GTK_INVALID_LIST_POSITION);
+    gtk_widget_set_sensitive(GTK_WIDGET(choice), s->table_count > 0);
+    g_strfreev(labels);
 }
 
 void ui_clear(GtkWidget *parent) {

@@ -29,6 +29,8 @@ void ui_entry_show(GtkWidget *entry, const char *text);
 GtkWidget *ui_choice(const char *name, GCallback chosen, gpointer user);
 /* What there is to choose from. The callback hears of it, too. */
 void ui_choice_set(GtkDropDown *choice, const char *const *words, guint selected);
+/* The tables of the session; `selected` -1: none. */
+void ui_choice_set_tables(viewer *v, GtkDropDown *choice, int selected);
 /* Removes all children of a box or grid. */
 void ui_clear(GtkWidget *parent);
 /* The widget of this name in the window, NULL: none. */

@@ -29,6 +29,7 @@ static void set_message(viewer *v, const char *text, bool is_problem) {
         v->message_is_problem = is_problem;
         viewer_tell(v, CHANGED_MESSAGE);
     }
+    v->message_is_of_model = false;
 }
 
 void viewer_say(viewer *v, const char *text) {
@@ -36,13 +37,24 @@ void viewer_say(viewer *v, const char *text) {
 }
 
 void viewer_complain(viewer *v, const char *text) {
-    if (text[0] != '\0' || v->message_is_problem) {
-        set_message(v, text, text[0] != '\0');
+    char words[VIEWER_WORDS_SIZE];
+    viewer_words_for_window(text, words, sizeof words);
+    if (words[0] != '\0' || v->message_is_problem) {
+        set_message(v, words, words[0] != '\0');
     }
     /* Nobody sees the window of a script. */
-    if (text[0] != '\0' && v->scripted) {
-        g_printerr("srp-viewer: %s\n", text);
+    if (words[0] != '\0' && v->scripted) {
+        g_printerr("srp-viewer: %s\n", words);
         v->exit_status = v->strict ? 1 : v->exit_status;
+    }
+}
+
+void viewer_complain_of_model(viewer *v, const char *text) {
+    if (text[0] != '\0') {
+        viewer_complain(v, text);
+        v->message_is_of_model = true;
+    } else if (v->message_is_of_model) {
+        viewer_complain(v, "");
     }
 }
 

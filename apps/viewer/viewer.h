@@ -61,8 +61,9 @@ struct viewer {
     /* What there is to say. */
     char message[VIEWER_WORDS_SIZE];
     bool message_is_problem;
-    bool picture_is_old; /* the 3D area has not drawn the newest state yet */
-    double asked_at;     /* when the newest force was asked for, NAN: shown already */
+    bool message_is_of_model; /* a problem that a new engine takes back */
+    bool picture_is_old;      /* the 3D area has not drawn the newest state yet */
+    double asked_at;          /* when the newest force was asked for, NAN: shown already */
     GPtrArray *listeners;
     int exit_status;
     bool strict; /* a complaint is a failure: there is a picture to make, and no script that expects
@@ -77,8 +78,12 @@ void viewer_tell(viewer *v, unsigned what);
 
 /* A line for the user, until the next one; "" says nothing. */
 void viewer_say(viewer *v, const char *text);
-/* The same for what went wrong; "" takes back the last complaint, and nothing else. */
+/* The same for what went wrong; "" takes back the last complaint, and nothing else. Options of the
+ * command line are named as the window names them. */
 void viewer_complain(viewer *v, const char *text);
+
+/* The same for what is wrong with spacecraft or method: stands until the next engine. */
+void viewer_complain_of_model(viewer *v, const char *text);
 
 /* Activates an action, "turn-x", as a widget does; `parameter` may be NULL. */
 void viewer_act(viewer *v, const char *action, GVariant *parameter);

@@ -60,6 +60,8 @@ static GtkWidget *make_header(frame *f) {
 
 /* ---- message ---- */
 
+enum { MESSAGE_HEIGHT = 72 }; /* at most [px] */
+
 static void on_dismiss(GtkButton *button, gpointer user) {
     (void)button;
     viewer_say(((frame *)user)->v, "");
@@ -71,16 +73,21 @@ static GtkWidget *make_message(frame *f) {
     f->message = ui_label("", NULL);
     gtk_widget_set_name(f->message, "message");
     gtk_label_set_wrap(GTK_LABEL(f->message), TRUE);
-    gtk_label_set_lines(GTK_LABEL(f->message), 3);
-    gtk_label_set_ellipsize(GTK_LABEL(f->message), PANGO_ELLIPSIZE_END);
+    gtk_label_set_wrap_mode(GTK_LABEL(f->message), PANGO_WRAP_WORD_CHAR);
     gtk_label_set_selectable(GTK_LABEL(f->message), TRUE);
     gtk_widget_set_can_focus(f->message, FALSE);
-    gtk_widget_set_hexpand(f->message, TRUE);
+    /* Several lines as they are; more than there is room for can be scrolled. */
+    GtkScrolledWindow *scrolled = GTK_SCROLLED_WINDOW(gtk_scrolled_window_new());
+    gtk_scrolled_window_set_policy(scrolled, GTK_POLICY_NEVER, GTK_POLICY_AUTOMATIC);
+    gtk_scrolled_window_set_propagate_natural_height(scrolled, TRUE);
+    gtk_scrolled_window_set_max_content_height(scrolled, MESSAGE_HEIGHT);
+    gtk_scrolled_window_set_child(scrolled, f->message);
+    gtk_widget_set_hexpand(GTK_WIDGET(scrolled), TRUE);
     gtk_button_set_has_frame(GTK_BUTTON(dismiss), FALSE);
     gtk_widget_set_tooltip_text(dismiss, "Dismiss");
     gtk_widget_set_valign(dismiss, GTK_ALIGN_START);
     g_signal_connect(dismiss, "clicked", G_CALLBACK(on_dismiss), f);
-    gtk_box_append(GTK_BOX(box), f->message);
+    gtk_box_append(GTK_BOX(box), GTK_WIDGET(scrolled));
     gtk_box_append(GTK_BOX(box), dismiss);
     gtk_widget_add_css_class(box, "message");
     gtk_widget_set_visible(box, FALSE);

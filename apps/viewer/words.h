@@ -5,6 +5,8 @@
 
 #include <srp/status.h>
 
+#include <stddef.h>
+
 /* A copy, freed by free(); NULL for NULL and without memory. */
 char *viewer_text_copy(const char *text);
 
@@ -17,6 +19,12 @@ typedef struct viewer_words {
 void viewer_words_add(viewer_words *words, const char *line);
 /* "file:line:column: message" of an error. */
 void viewer_words_add_error(viewer_words *words, const srp_error *error);
+
+/* `text` for people who see fields and no command line: "--grid 0: expected ..." becomes "Grid 0:
+ * expected ...", and "needs --area M2" becomes "needs Area". */
+void viewer_words_for_window(const char *text, char *out, size_t size);
+/* The window's name of METHOD_...: "Grid". */
+void viewer_words_method_field(int option, char *out, size_t size);
 
 /* From here on what this thread says (messages.h) is collected in `words`; NULL: goes to stderr. */
 void viewer_words_listen(viewer_words *words);

@@ -98,6 +98,36 @@ START_TEST(setup_as_a_command_line) {
 }
 END_TEST
 
+static void expect_words(const char *text, const char *want) {
+    char got[VIEWER_WORDS_SIZE];
+    viewer_words_for_window(text, got, sizeof got);
+    ck_assert_str_eq(got, want);
+}
+
+/* Who looks at a window is told of its fields. */
+START_TEST(words_name_fields_and_no_options) {
+    expect_words("--grid 0: expected a whole number", "Grid 0: expected a whole number");
+    expect_words("--mass -3: expected more", "Mass -3: expected more");
+    expect_words("method cannonball needs --cr CR and --area M2",
+                 "method cannonball needs Cr and Area");
+    expect_words("method nplate needs --plates FILE", "method nplate needs a file by Plates…");
+    expect_words("needs the mass of the spacecraft: --mass KG",
+                 "needs the mass of the spacecraft: Mass");
+    expect_words("as --material NAME=RHO_S,RHO_D", "as Materials");
+    expect_words("--max-grid 3 is less than --grid 5", "Max-grid 3 is less than Grid 5");
+    expect_words("--reference x: expected", "Moments about x: expected");
+    /* What is no field stays as it is. */
+    expect_words("'srp convert --flip' turns them round -- or -3",
+                 "'srp convert --flip' turns them round -- or -3");
+    expect_words("--gridded --", "--gridded --");
+    char shorter[8];
+    viewer_words_for_window("a--grid 0", shorter, sizeof shorter);
+    ck_assert_str_eq(shorter, "aGrid 0");
+    viewer_words_for_window("abc--reference", shorter, sizeof shorter);
+    ck_assert_str_eq(shorter, "abcMome");
+}
+END_TEST
+
 /* ---- engines ---- */
 
 /* The way of the command line: srp_scene_read_obj() and the same parameters. */
@@ -222,6 +252,42 @@ START_TEST(engine_waits_for_missing_optics) {
     viewer_engine *good = viewer_engine_make(setup, engine->shape, false);
     ck_assert(viewer_engine_respond(good, 0.0, 90.0, &force, &problem));
     assert_close(force.response.f.z, -0.75 * 1.25, 1e-14, 0.0);
+    viewer_engine_release(engine);
+    viewer_engine_release(good);
+    viewer_setup_destroy(setup);
+}
+END_TEST
+
+/* The mass changes without a new engine, which other threads read. */
+START_TEST(mass_is_no_part_of_an_engine) {
+    viewer_setup *setup = box_wing();
+    viewer_words problem = {""};
+    ck_assert(viewer_setup_set_mass(setup, "12", &problem));
+    viewer_engine *engine = viewer_engine_make(setup, NULL, false);
+    ck_assert(isnan(engine->setup->mass) && setup->mass == 12.0);
+    viewer_engine_release(engine);
+    viewer_setup_destroy(setup);
+}
+END_TEST
+
+START_TEST(engine_misses_an_mtl) {
+    viewer_setup *setup = viewer_setup_create();
+    viewer_words problem = {""};
+    write_file("lost.obj",
+               "mtllib no-such.mtl\nusemtl foil\nv 0 0 0\nv 1 0 0\nv 0 1.5 0\nf 1 2 3\n");
+    viewer_setup_set_model(setup, "lost.obj");
+    viewer_engine *engine = viewer_engine_make(setup, NULL, false);
+    ck_assert_ptr_nonnull(viewer_engine_missing_mtl(engine));
+    ck_assert_ptr_nonnull(strstr(viewer_engine_missing_mtl(engine), "no-such.mtl"));
+    const char *file = strstr(engine->problem.text, "no-such.mtl does not exist");
+    const char *material = strstr(engine->problem.text, "'foil' has no optics");
+    ck_assert_msg(file != NULL && material != NULL && file < material, "%s", engine->problem.text);
+    /* Nothing is missed once the optics are known. */
+    ck_assert(viewer_setup_set_material_text(setup, "foil=0.25,0", &problem));
+    viewer_engine *good = viewer_engine_make(setup, engine->shape, false);
+    ck_assert_str_eq(good->problem.text, "");
+    ck_assert_ptr_null(viewer_engine_missing_mtl(good));
+    ck_assert_ptr_null(viewer_engine_missing_mtl(NULL));
     viewer_engine_release(engine);
     viewer_engine_release(good);
     viewer_setup_destroy(setup);
@@ -411,10 +477,13 @@ static Suite *make_suite(void) {
     tcase_add_test(cases, setup_takes_what_the_command_line_takes);
     tcase_add_test(cases, setup_leaves_out_what_a_method_does_not_use);
     tcase_add_test(cases, setup_as_a_command_line);
+    tcase_add_test(cases, words_name_fields_and_no_options);
     tcase_add_test(cases, engine_gives_the_bits_of_the_library);
     tcase_add_test(cases, engine_takes_a_known_shape);
     tcase_add_test(cases, engine_says_what_is_wrong);
     tcase_add_test(cases, engine_waits_for_missing_optics);
+    tcase_add_test(cases, mass_is_no_part_of_an_engine);
+    tcase_add_test(cases, engine_misses_an_mtl);
     tcase_add_test(cases, engine_of_plates_and_ball);
     tcase_add_test(cases, attitude_there_and_back);
     tcase_add_test(cases, attitude_for_a_sun);

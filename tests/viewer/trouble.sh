@@ -45,12 +45,16 @@ expect message
 expect lit-area e-
 method nplate
 wait
-expect message needs --plates
+expect message needs a file by Plates…
+expect speed-words not known
+expect accuracy-words not known
 method cannonball
 wait
-expect message --cr
+expect message needs Cr and Area
 parameter grid=0
-expect message a whole number from 1 to 32768
+expect message Grid 0: expected a whole number from 1 to 32768
+enter mass -3
+expect message Mass -3: expected
 method exact
 wait
 open-table $scratch/no-such.nc
@@ -65,6 +69,82 @@ expect model-name box-wing.obj
 expect lit-area e+
 END
 view 0 --actions "$scratch/steps" "$scratch/no-such.obj"
+
+# An MTL that is not there is asked for; all else goes on, and another one can be given.
+printf 'mtllib nowhere.mtl\nusemtl foil\nv 0 0 0\nv 1 0 0\nv 0 1.5 0\nf 1 2 3\n' > "$scratch/lost.obj"
+printf 'newmtl foil\nrho_s 0.25\nrho_d 0.125\nnewmtl other\nrho_s 0\nrho_d 0\n' > "$scratch/found.mtl"
+printf 'newmtl other\nrho_s 0\nrho_d 0\n' > "$scratch/other.mtl"
+cat > "$scratch/steps" << END
+wait
+expect message nowhere.mtl does not exist: another can be taken by Find MTL
+expect message the material 'foil' has no optics
+expect model-facts 1 triangle
+compute-table
+expect message nowhere.mtl
+mtl $scratch/other.mtl
+expect message has optics for none
+mtl $scratch/no-such.mtl
+expect message no-such.mtl
+mtl $scratch/found.mtl
+wait
+print message
+expect rho-s-foil 0.25
+expect f-x e
+copy-command
+expect message --material foil=0.25,0.125
+open $ROOT/models/box-wing.obj
+wait
+expect f-x e+
+mtl $scratch/found.mtl
+expect message has optics for none of the materials of
+END
+view 0 --actions "$scratch/steps" "$scratch/lost.obj"
+[ -z "$(value message)" ] || fail "with the MTL the message is '$(value message)'"
+
+# A spacecraft that takes long and cannot be read, and another one before it has been: nothing is said of it.
+# Others are opened while a table is computed, which goes on, and is of the one that it was asked for.
+{
+    awk 'BEGIN { for (k = 0; k < 600000; ++k) print "v", k, 1, 2 }'
+    echo 'v 1 2 x'
+} > "$scratch/long.obj"
+cat > "$scratch/steps" << END
+wait
+open $scratch/long.obj
+pause 0.05
+open $ROOT/models/cube.obj
+wait
+print message
+expect model-name cube.obj
+expect speed-words directions/s
+tab graphics
+method raytrace
+parameter grid=96
+parameter diffuse=4
+az-step 10
+el-step 10
+wait
+compute-table
+pause 0.1
+open $scratch/long.obj
+pause 0.05
+open $scratch/broken.obj
+open $ROOT/models/dish.obj
+screenshot $scratch/waited.png
+expect table cube.obj
+expect message Table 1: cube.obj
+expect model-name dish.obj
+expect speed-words directions/s
+compute-table
+open $scratch/broken.obj
+wait
+expect table dish.obj
+expect speed-words not known
+reload
+wait
+expect message broken.obj:2:
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+[ -z "$(value message)" ] || fail "the message is of a spacecraft that was: '$(value message)'"
 
 # A table that is cancelled, and a window that is closed while it computes.
 cat > "$scratch/steps" << END
