@@ -49,6 +49,8 @@ static void put(GMenu *menu, int at, const char *path) {
 
 void viewer_state_note_recent(viewer *v, const char *path) {
     GMenu *menu = recent_menu(v);
+    /* How many of the list were opened by this window; they stand first. */
+    int noted = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(menu), "noted"));
     if (!g_utf8_validate(path, -1, NULL)) {
         return; /* a menu cannot name it */
     }
@@ -56,10 +58,12 @@ void viewer_state_note_recent(viewer *v, const char *path) {
         char *old = recent_path(menu, i);
         if (g_strcmp0(old, path) == 0 || i >= RECENT_MAX - 1) {
             g_menu_remove(menu, i);
+            noted -= i < noted;
         }
         g_free(old);
     }
     put(menu, 0, path);
+    g_object_set_data(G_OBJECT(menu), "noted", GINT_TO_POINTER(noted + 1));
 }
 
 /* ---- reading ---- */
@@ -125,24 +129,34 @@ void viewer_state_load(viewer *v) {
 
 /* ---- writing ---- */
 
+/* Ours, newest first, then what another window has written since this one read the file. */
 static void save_recent(viewer *v, GKeyFile *file) {
     GMenu *menu = recent_menu(v);
-    int count = g_menu_model_get_n_items(G_MENU_MODEL(menu));
-    char *paths[RECENT_MAX + 1] = {NULL};
-    for (int i = 0; i < count && i < RECENT_MAX; ++i) {
-        paths[i] = recent_path(menu, i);
+    int noted = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(menu), "noted"));
+    char **theirs = g_key_file_get_string_list(file, RECENT, "files", NULL, NULL);
+    GPtrArray *paths = g_ptr_array_new_with_free_func(g_free);
+    for (int i = 0; i < noted && i < g_menu_model_get_n_items(G_MENU_MODEL(menu)); ++i) {
+        g_ptr_array_add(paths, recent_path(menu, i));
     }
-    g_key_file_set_string_list(file, RECENT, "files", (const char *const *)paths,
-                               (gsize)MIN(count, RECENT_MAX));
-    for (int i = 0; i < RECENT_MAX; ++i) {
-        g_free(paths[i]);
+    for (int i = 0; theirs != NULL && theirs[i] != NULL; ++i) {
+        if (!g_ptr_array_find_with_equal_func(paths, theirs[i], g_str_equal, NULL)) {
+            g_ptr_array_add(paths, g_strdup(theirs[i]));
+        }
     }
+    g_key_file_set_string_list(file, RECENT, "files", (const char *const *)paths->pdata,
+                               MIN(paths->len, (guint)RECENT_MAX));
+    g_ptr_array_unref(paths);
+    g_strfreev(theirs);
 }
 
 void viewer_state_save(viewer *v) {
     GKeyFile *file = g_key_file_new();
+    char *name = file_name(), *directory = g_path_get_dirname(name);
     int width, height;
     gboolean dark;
+    (void)g_key_file_load_from_file(file, name, G_KEY_FILE_NONE, NULL);
+    (void)g_key_file_remove_group(file, METHOD, NULL);
+    (void)g_key_file_remove_group(file, LIGHT, NULL);
     gtk_window_get_default_size(v->window, &width, &height);
     g_object_get(gtk_widget_get_settings(GTK_WIDGET(v->window)),
                  "gtk-application-prefer-dark-theme", &dark, NULL);
@@ -163,7 +177,6 @@ void viewer_state_save(viewer *v) {
     g_key_file_set_double(file, TABLE, "az-step", v->az_step_deg);
     g_key_file_set_double(file, TABLE, "el-step", v->el_step_deg);
     save_recent(v, file);
-    char *name = file_name(), *directory = g_path_get_dirname(name);
     if (g_mkdir_with_parents(directory, 0700) == 0) {
         (void)g_key_file_save_to_file(file, name, NULL);
     }

@@ -197,6 +197,18 @@ printf '%s\n' 'wait' 'expect method raycast' 'expect grid 77' 'expect mass 12.5'
 view 0 --remember --actions "$scratch/steps"
 grep -q '^files=.*models/cube.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the file is not among the recent ones'
 grep -q '^tab=1' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the tab is not remembered'
+# Two windows at once: what either opened is remembered.
+printf '%s\n' wait 'pause 4' > "$scratch/slow"
+"$VIEWER" --remember --actions "$scratch/slow" "$ROOT/models/dish.obj" > "$scratch/log" 2>&1 &
+slow=$!
+echo wait > "$scratch/steps"
+view 0 --remember --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+kill -0 "$slow" || fail 'the other window ended too early to tell'
+wait "$slow" || fail 'the other window'
+for model in dish box-wing cube; do
+    grep -q "^files=.*models/$model.obj;" "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail "$model is forgotten"
+done
+grep -q '^files=[^;]*models/dish.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the newest file is not first'
 printf 'not a key file\n\0\n' > "$XDG_CONFIG_HOME/srpcore/viewer.ini"
 printf 'wait\nexpect method exact\n' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps" "$ROOT/models/cube.obj"
