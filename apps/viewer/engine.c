@@ -97,8 +97,8 @@ static void ask_for_mtl(viewer_engine *engine) {
     if (missing == NULL) {
         return;
     }
-    snprintf(line, sizeof line, "the MTL file %.1000s does not exist: another can be taken by Find MTL",
-             missing);
+    snprintf(line, sizeof line,
+             "the MTL file %.1000s does not exist: another can be taken by Find MTL", missing);
     viewer_words said = engine->problem;
     engine->problem.text[0] = '\0';
     viewer_words_add(&engine->problem, line);

@@ -173,6 +173,29 @@ if "$SRP" fit-nplate "$scratch/fine.nc" --plates 5 -o "$scratch/cli.plates" > "$
     compared "$scratch/fine.nc" "$scratch/five.nc" "$scratch/fit"
 fi
 
+# Tables of a quarter of a million directions are compared when somebody looks, beside the window.
+"$SRP" table --method cannonball --cr 1.25 --area 2.5 --step 0.5 -o "$scratch/half.nc" > "$scratch/log" 2>&1 || fail 'srp table'
+"$SRP" table --method nplate --plates "$ROOT/models/box-wing.plates" --step 1 -o "$scratch/one.nc" > "$scratch/log" 2>&1 || fail 'srp table'
+{
+    cat << END
+wait
+open-table $scratch/half.nc
+open-table $scratch/one.nc
+wait
+expect comparison-facts Two tables of this session
+tab compare
+expect comparison-facts Comparing …
+expect vector-rms —
+save $scratch/early.png
+expect message still being compared
+wait
+END
+    numbers_of big
+} > "$scratch/steps"
+view 0 --actions "$scratch/steps"
+between big > "$scratch/big"
+compared "$scratch/half.nc" "$scratch/one.nc" "$scratch/big"
+
 # Missions that ask for OpenGL and for the cache run as in srp propagate, to all digits.
 mission() {
     sed -e 's/^duration:.*/duration: 3 h/' -e 's/step: 1 h/step: 20 min/' -e "s|file: ../|file: $ROOT/models/|" \
