@@ -203,11 +203,17 @@ static void clear_arrows(viewer *v, GVariant *parameter) {
 /* ---- looks ---- */
 
 static void set_colouring(viewer *v, GVariant *parameter) {
+    static const char *const names[] = {
+        [COLOUR_MATERIAL] = "material", [COLOUR_INCIDENCE] = "incidence", [COLOUR_FORCE] = "force"};
     const char *text = g_variant_get_string(parameter, NULL);
-    v->colouring = strcmp(text, "incidence") == 0 ? COLOUR_INCIDENCE
-                   : strcmp(text, "force") == 0   ? COLOUR_FORCE
-                                                  : COLOUR_MATERIAL;
-    viewer_tell(v, CHANGED_VIEW);
+    for (size_t i = 0; i < G_N_ELEMENTS(names); ++i) {
+        if (strcmp(text, names[i]) == 0) {
+            v->colouring = (viewer_colouring)i;
+            viewer_tell(v, CHANGED_VIEW);
+            return;
+        }
+    }
+    viewer_complain(v, "expected the colouring material, incidence or force");
 }
 
 /* "AZ,EL[,ZOOM]" */

@@ -258,14 +258,15 @@ bool viewer_session_table_is_old(const viewer_session *session, size_t index) {
            strcmp(info->optics_hash, srp_scene_optics_hash(engine->mesh)) != 0;
 }
 
+/* The number first, then what must not be cut off. */
 char *viewer_session_table_label(const viewer_session *session, size_t index) {
-    static const char old[] = " — of other optics";
-    const char *name = session->tables[index]->name;
-    size_t size = (name != NULL ? strlen(name) : 0) + sizeof old;
+    const char *name = session->tables[index]->name != NULL ? session->tables[index]->name : "";
+    const char *old = viewer_session_table_is_old(session, index) ? " (of other optics)" : "";
+    int number = (int)strcspn(name, ":");
+    size_t size = strlen(name) + strlen(old) + 1;
     char *label = malloc(size);
     if (label != NULL) {
-        snprintf(label, size, "%s%s", name != NULL ? name : "",
-                 viewer_session_table_is_old(session, index) ? old : "");
+        snprintf(label, size, "%.*s%s%s", number, name, old, name + number);
     }
     return label;
 }

@@ -60,7 +60,21 @@ static GtkWidget *make_header(frame *f) {
 
 /* ---- message ---- */
 
-enum { MESSAGE_HEIGHT = 72 }; /* at most [px] */
+enum { MESSAGE_LINES = 4 };
+
+/* So many lines that there is still room for the rest; all of them are in the tip. */
+static void show_message(frame *f) {
+    const char *end = f->v->message;
+    for (int lines = 0; *end != '\0' && (*end != '\n' || ++lines < MESSAGE_LINES); ++end) {
+    }
+    char *head = g_strndup(f->v->message, (gsize)(end - f->v->message));
+    char *text = g_strconcat(head, *end != '\0' ? " …" : "", NULL);
+    gtk_label_set_text(GTK_LABEL(f->message), text);
+    gtk_widget_set_tooltip_text(f->message, *end != '\0' ? f->v->message : NULL);
+    gtk_widget_set_visible(f->bar, f->v->message[0] != '\0');
+    g_free(text);
+    g_free(head);
+}
 
 static void on_dismiss(GtkButton *button, gpointer user) {
     (void)button;
@@ -76,19 +90,17 @@ static GtkWidget *make_message(frame *f) {
     gtk_label_set_wrap_mode(GTK_LABEL(f->message), PANGO_WRAP_WORD_CHAR);
     gtk_label_set_selectable(GTK_LABEL(f->message), TRUE);
     gtk_widget_set_can_focus(f->message, FALSE);
-    /* Several lines as they are; more than there is room for can be scrolled. */
-    GtkScrolledWindow *scrolled = GTK_SCROLLED_WINDOW(gtk_scrolled_window_new());
-    gtk_scrolled_window_set_policy(scrolled, GTK_POLICY_NEVER, GTK_POLICY_AUTOMATIC);
-    gtk_scrolled_window_set_propagate_natural_height(scrolled, TRUE);
-    gtk_scrolled_window_set_max_content_height(scrolled, MESSAGE_HEIGHT);
-    gtk_scrolled_window_set_child(scrolled, f->message);
-    gtk_widget_set_hexpand(GTK_WIDGET(scrolled), TRUE);
+    gtk_widget_set_hexpand(f->message, TRUE);
     gtk_button_set_has_frame(GTK_BUTTON(dismiss), FALSE);
     gtk_widget_set_tooltip_text(dismiss, "Dismiss");
     gtk_widget_set_valign(dismiss, GTK_ALIGN_START);
     g_signal_connect(dismiss, "clicked", G_CALLBACK(on_dismiss), f);
-    gtk_box_append(GTK_BOX(box), GTK_WIDGET(scrolled));
-    gtk_box_append(GTK_BOX(box), dismiss);
+    gtk_box_append(GTK_BOX(box), f->message);
+    /* A column has no baseline; with that of the button GTK miscounts the height of several lines.
+     */
+    GtkWidget *column = ui_box(GTK_ORIENTATION_VERTICAL, 0);
+    gtk_box_append(GTK_BOX(column), dismiss);
+    gtk_box_append(GTK_BOX(box), column);
     gtk_widget_add_css_class(box, "message");
     gtk_widget_set_visible(box, FALSE);
     f->bar = box;
@@ -115,8 +127,7 @@ static void on_changed(void *pane, unsigned what) {
         show_title(f);
     }
     if ((what & CHANGED_MESSAGE) != 0) {
-        gtk_label_set_text(GTK_LABEL(f->message), f->v->message);
-        gtk_widget_set_visible(f->bar, f->v->message[0] != '\0');
+        show_message(f);
         f->v->message_is_problem ? gtk_widget_add_css_class(f->bar, "problem")
                                  : gtk_widget_remove_css_class(f->bar, "problem");
     }

@@ -52,7 +52,7 @@ START_TEST(optics_that_change_leave_old_tables) {
     expect_label(session, 0, "1: box-wing");
     set_optics(session, setup, "cells=0.3125,0.171875");
     ck_assert(viewer_session_table_is_old(session, 0));
-    expect_label(session, 0, "1: box-wing — of other optics");
+    expect_label(session, 0, "1 (of other optics): box-wing");
     /* What is made of it by its sums is of the new ones, and what tracing gives. */
     srp_table *made = NULL, *traced = compute(session->engine, true);
     srp_error error;

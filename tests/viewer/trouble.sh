@@ -55,6 +55,10 @@ parameter grid=0
 expect message Grid 0: expected a whole number from 1 to 32768
 enter mass -3
 expect message Mass -3: expected
+colouring sideways
+expect message expected the colouring
+enter mass -3
+expect message Mass -3: expected
 method exact
 wait
 open-table $scratch/no-such.nc
