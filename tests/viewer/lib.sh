@@ -35,11 +35,16 @@ start_display() {
     export DISPLAY=:$number
 }
 
+# run_viewer ARGUMENTS...: what has to be in front of it (keep_loaded.c) comes with it.
+run_viewer() {
+    env ${VIEWER_PRELOAD:+"LD_PRELOAD=$VIEWER_PRELOAD"} timeout 300 "$VIEWER" "$@"
+}
+
 # view STATUS ARGUMENTS...: runs the viewer, for two minutes at most; output in $scratch/out and err.
 view() {
     local want=$1 got=0
     shift
-    timeout 300 "$VIEWER" "$@" > "$scratch/out" 2> "$scratch/err" || got=$?
+    run_viewer "$@" > "$scratch/out" 2> "$scratch/err" || got=$?
     if [ "$got" -ne "$want" ]; then
         fail "status $got, expected $want: srp-viewer $*"
         sed 's/^/  /' "$scratch/out" "$scratch/err"

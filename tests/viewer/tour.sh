@@ -199,7 +199,7 @@ grep -q '^files=.*models/cube.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fai
 grep -q '^tab=1' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the tab is not remembered'
 # Two windows at once: what either opened is remembered.
 printf '%s\n' wait 'pause 4' > "$scratch/slow"
-"$VIEWER" --remember --actions "$scratch/slow" "$ROOT/models/dish.obj" > "$scratch/log" 2>&1 &
+run_viewer --remember --actions "$scratch/slow" "$ROOT/models/dish.obj" > "$scratch/log" 2>&1 &
 slow=$!
 echo wait > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
