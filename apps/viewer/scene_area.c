@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene_area.h"
 
+#include "scene_light.h"
 #include "scene_look.h"
 #include "ui.h"
 
@@ -16,7 +17,15 @@ typedef struct area {
     viewer_engine *drawn; /* whose mesh the renderer has */
     viewer_look look;
     double drag_az, drag_el;
+    /* A large spacecraft is drawn simplified until nothing has moved for a moment. */
+    scene_light *light;
+    bool moving, coarse; /* something moved just now; the picture that is shown is simplified */
+    guint settle;        /* the moment's end; 0: none */
+    viewer_engine *lit;  /* whose light the renderer has, from there; NULL: none */
+    srp_vec3 lit_sun;
 } area;
+
+enum { SETTLE_MS = 250 };
 
 /* ---- OpenGL ---- */
 
@@ -74,6 +83,7 @@ static void on_unrealize(GtkGLArea *gl, gpointer user) {
     }
     a->renderer = NULL;
     g_clear_pointer(&a->drawn, viewer_engine_release);
+    g_clear_pointer(&a->lit, viewer_engine_release);
 }
 
 /* Gives the renderer the mesh of the newest engine. */
@@ -90,7 +100,36 @@ static bool bring_scene(area *a) {
     }
     viewer_engine_release(a->drawn);
     a->drawn = viewer_engine_reference(engine);
+    g_clear_pointer(&a->lit, viewer_engine_release);
     return scene != NULL;
+}
+
+static bool is_large(const area *a) {
+    const viewer_engine *engine = a->v->session->engine;
+    return engine != NULL && engine->mesh != NULL &&
+           srp_scene_facet_count(engine->mesh) > SRP_RENDER_COARSE_FACETS;
+}
+
+/* Gives the renderer the light of a large spacecraft; false: not found yet. */
+static bool bring_light(area *a, srp_render_view *view) {
+    const srp_render_light *found;
+    srp_error error;
+    srp_vec3 sun = view->sun;
+    scene_light_ask(a->light, a->drawn, sun);
+    scene_light_state state = scene_light_look(a->light, a->drawn, sun, &found);
+    bool known = a->lit == a->drawn && a->lit_sun.x == sun.x && a->lit_sun.y == sun.y &&
+                 a->lit_sun.z == sun.z;
+    if (state == LIGHT_FOUND && !known) {
+        known = srp_renderer_set_light(a->renderer, found, &error) == SRP_OK;
+        g_clear_pointer(&a->lit, viewer_engine_release);
+        a->lit = known ? viewer_engine_reference(a->drawn) : NULL;
+        a->lit_sun = sun;
+    }
+    if (state != LIGHT_UNKNOWN && !known) {
+        view->shadows = false;
+        show_trouble(a, "There is no memory for shadows.");
+    }
+    return state != LIGHT_UNKNOWN;
 }
 
 static srp_render_colour background(void) {
@@ -111,13 +150,15 @@ static void draw_scene(area *a) {
     viewer_look_make(v->session, v->camera.az_deg, v->camera.el_deg, v->camera.zoom, width, height,
                      &a->look);
     srp_render_view *view = &a->look.view;
-    view->shadows = view->shadows && v->shadows;
+    view->shadows = v->shadows;
     view->colouring = v->colouring == COLOUR_INCIDENCE ? SRP_RENDER_INCIDENCE
                       : v->colouring == COLOUR_FORCE   ? SRP_RENDER_FORCE
                                                        : SRP_RENDER_MATERIAL;
     view->value_low = 0.0;
     view->value_high = v->colouring == COLOUR_FORCE ? 2.0 : 1.0;
     view->background = background();
+    a->coarse = is_large(a) && (a->moving || (view->shadows && !bring_light(a, view)));
+    view->coarse = a->coarse;
     if (srp_renderer_draw(a->renderer, view, &error) != SRP_OK) {
         show_trouble(a, error.message);
     }
@@ -139,6 +180,7 @@ static void draw_nothing(area *a) {
 static gboolean on_render(GtkGLArea *gl, GdkGLContext *context, gpointer user) {
     area *a = user;
     (void)gl, (void)context;
+    a->coarse = false;
     if (a->renderer != NULL) {
         bring_scene(a) ? draw_scene(a) : draw_nothing(a);
     }
@@ -146,7 +188,7 @@ static gboolean on_render(GtkGLArea *gl, GdkGLContext *context, gpointer user) {
         viewer_session_add_latency(a->v->session, viewer_seconds() - a->v->asked_at);
         a->v->asked_at = NAN;
     }
-    a->v->picture_is_old = false;
+    a->v->picture_is_old = a->coarse; /* the whole one is on its way */
     gtk_widget_queue_draw(a->marks);
     return TRUE;
 }
@@ -244,15 +286,30 @@ static void draw_material_names(area *a, GtkWidget *widget, cairo_t *cr, int hei
     }
 }
 
+static void draw_coarse_note(GtkWidget *widget, cairo_t *cr, int width, int height) {
+    const char *note = "Simplified while it moves; shadows follow";
+    GdkRGBA ink;
+    cairo_text_extents_t size;
+    gtk_style_context_get_color(gtk_widget_get_style_context(widget), &ink);
+    cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cr, 11.5);
+    gdk_cairo_set_source_rgba(cr, &ink);
+    cairo_text_extents(cr, note, &size);
+    cairo_move_to(cr, width - size.x_advance - 14.0, height - 14.0);
+    cairo_show_text(cr, note);
+}
+
 static void draw_marks(GtkDrawingArea *widget, cairo_t *cr, int width, int height, gpointer user) {
     area *a = user;
     srp_render_colour colours[BAR_STRIPS];
     double least, largest;
-    (void)width;
     if (a->drawn == NULL || a->drawn->mesh == NULL) {
         return;
     }
     draw_axes_words(a, cr);
+    if (a->coarse) {
+        draw_coarse_note(GTK_WIDGET(widget), cr, width, height);
+    }
     if (a->v->colouring == COLOUR_MATERIAL) {
         draw_material_names(a, GTK_WIDGET(widget), cr, height);
     } else {
@@ -298,11 +355,35 @@ static gboolean on_scroll(GtkEventControllerScroll *scroll, double dx, double dy
 
 /* ---- together ---- */
 
+static gboolean on_settled(gpointer user) {
+    area *a = user;
+    a->settle = 0;
+    a->moving = false;
+    gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
+    return G_SOURCE_REMOVE;
+}
+
+static void on_light(void *user) {
+    area *a = user;
+    gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
+}
+
+static void notice_move(area *a) {
+    g_clear_handle_id(&a->settle, g_source_remove);
+    a->moving = is_large(a);
+    if (a->moving) {
+        a->settle = g_timeout_add(SETTLE_MS, on_settled, a);
+    }
+}
+
 static void on_changed(void *user, unsigned what) {
     area *a = user;
     if ((what & (CHANGED_ENGINE | CHANGED_SUN | CHANGED_FORCE | CHANGED_ARROWS | CHANGED_VIEW)) ==
         0) {
         return;
+    }
+    if ((what & (CHANGED_ENGINE | CHANGED_SUN | CHANGED_VIEW)) != 0) {
+        notice_move(a);
     }
     if (gtk_widget_get_mapped(a->gl) && a->renderer != NULL) {
         a->v->picture_is_old = true;
@@ -320,7 +401,10 @@ static void on_unmap(GtkWidget *widget, gpointer user) {
 
 static void free_area(gpointer user) {
     area *a = user;
+    g_clear_handle_id(&a->settle, g_source_remove);
+    scene_light_destroy(a->light);
     viewer_engine_release(a->drawn);
+    viewer_engine_release(a->lit);
     if (a->library != NULL) {
         g_module_close(a->library);
     }
@@ -330,6 +414,7 @@ static void free_area(gpointer user) {
 GtkWidget *viewer_scene_area(viewer *v) {
     area *a = g_new0(area, 1);
     a->v = v;
+    a->light = scene_light_create(on_light, a);
     a->gl = gtk_gl_area_new();
     gtk_gl_area_set_required_version(GTK_GL_AREA(a->gl), 3, 3);
     gtk_gl_area_set_auto_render(GTK_GL_AREA(a->gl), FALSE);

@@ -163,6 +163,6 @@ srp_status srp_render_send_marks(srp_renderer *renderer, const srp_render_view *
         const srp_render_arrow *arrow = &view->arrows[k];
         add_arrow(&draw, arrow, arrow->width > 0.0 ? arrow->width : usual);
     }
-    srp_render_batch_fill(renderer, SRP_RENDER_MARKS, GL_STREAM_DRAW);
+    srp_render_batch_fill(renderer, SRP_RENDER_MARKS, &renderer->scratch, GL_STREAM_DRAW);
     return SRP_OK;
 }
