@@ -132,11 +132,15 @@ static bool bring_light(area *a, srp_render_view *view) {
     return state != LIGHT_UNKNOWN;
 }
 
-static srp_render_colour background(void) {
+static bool is_dark(void) {
     gboolean dark = FALSE;
     g_object_get(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", &dark, NULL);
-    return dark ? (srp_render_colour){0.13f, 0.13f, 0.15f}
-                : (srp_render_colour){0.97f, 0.97f, 0.98f};
+    return dark;
+}
+
+static srp_render_colour background(void) {
+    return is_dark() ? (srp_render_colour){0.13f, 0.13f, 0.15f}
+                     : (srp_render_colour){0.97f, 0.97f, 0.98f};
 }
 
 static void draw_scene(area *a) {
@@ -210,15 +214,18 @@ static void put_word(area *a, cairo_t *cr, srp_vec3 at, const char *word, const 
 static void draw_axes_words(area *a, cairo_t *cr) {
     static const double red[3] = {0.8, 0.1, 0.1}, green[3] = {0.1, 0.55, 0.15},
                         blue[3] = {0.15, 0.3, 0.85}, gold[3] = {0.75, 0.55, 0.0};
+    static const double light[4][3] = {
+        {1.0, 0.45, 0.45}, {0.45, 0.85, 0.5}, {0.5, 0.65, 1.0}, {1.0, 0.85, 0.2}};
+    bool dark = is_dark();
     double axes = 1.07 * a->look.view.axes;
     cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
     cairo_set_font_size(cr, 13.0);
-    put_word(a, cr, srp_vec3_make(axes, 0.0, 0.0), "X", red);
-    put_word(a, cr, srp_vec3_make(0.0, axes, 0.0), "Y", green);
-    put_word(a, cr, srp_vec3_make(0.0, 0.0, axes), "Z", blue);
+    put_word(a, cr, srp_vec3_make(axes, 0.0, 0.0), "X", dark ? light[0] : red);
+    put_word(a, cr, srp_vec3_make(0.0, axes, 0.0), "Y", dark ? light[1] : green);
+    put_word(a, cr, srp_vec3_make(0.0, 0.0, axes), "Z", dark ? light[2] : blue);
     srp_vec3 sun = srp_vec3_add_scaled(a->look.view.camera.target, 1.05 * a->look.view.sun_line,
                                        a->look.view.sun);
-    put_word(a, cr, sun, "Sun", gold);
+    put_word(a, cr, sun, "Sun", dark ? light[3] : gold);
 }
 
 enum { BAR_STRIPS = 90 };
@@ -353,6 +360,22 @@ static gboolean on_scroll(GtkEventControllerScroll *scroll, double dx, double dy
     return TRUE;
 }
 
+/* Arrow keys do what dragging does. */
+static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkModifierType held,
+                       gpointer user) {
+    area *a = user;
+    (void)keys, (void)code;
+    double across = (key == GDK_KEY_Left) - (key == GDK_KEY_Right);
+    double up = (key == GDK_KEY_Up) - (key == GDK_KEY_Down);
+    if ((held & gtk_accelerator_get_default_mod_mask()) != 0 || (across == 0.0 && up == 0.0)) {
+        return FALSE;
+    }
+    a->v->camera.az_deg = fmod(a->v->camera.az_deg + 5.0 * across, 360.0);
+    a->v->camera.el_deg = fmax(-90.0, fmin(90.0, a->v->camera.el_deg + 5.0 * up));
+    viewer_tell(a->v, CHANGED_VIEW);
+    return TRUE;
+}
+
 /* ---- together ---- */
 
 static gboolean on_settled(gpointer user) {
@@ -419,6 +442,7 @@ GtkWidget *viewer_scene_area(viewer *v) {
     gtk_gl_area_set_required_version(GTK_GL_AREA(a->gl), 3, 3);
     gtk_gl_area_set_auto_render(GTK_GL_AREA(a->gl), FALSE);
     gtk_widget_set_name(a->gl, "scene");
+    ui_name(a->gl, "Picture of the spacecraft; arrow keys turn the camera");
     gtk_widget_set_focusable(a->gl, TRUE);
     gtk_widget_set_size_request(a->gl, 320, 220);
     g_signal_connect(a->gl, "realize", G_CALLBACK(on_realize), a);
@@ -433,6 +457,9 @@ GtkWidget *viewer_scene_area(viewer *v) {
         gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
     g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), a);
     gtk_widget_add_controller(a->gl, scroll);
+    GtkEventController *keys = gtk_event_controller_key_new();
+    g_signal_connect(keys, "key-pressed", G_CALLBACK(on_key), a);
+    gtk_widget_add_controller(a->gl, keys);
     a->marks = gtk_drawing_area_new();
     gtk_widget_set_can_target(a->marks, FALSE);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(a->marks), draw_marks, a, NULL);

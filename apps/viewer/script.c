@@ -2,6 +2,7 @@
 #include "script.h"
 
 #include "actions.h"
+#include "audit.h"
 #include "screenshot.h"
 #include "ui.h"
 
@@ -202,6 +203,9 @@ static gboolean step(script *s, char *line) {
         s->stall = 0.0;
         s->ticked_at = NAN;
         return TRUE;
+    }
+    if (strcmp(line, "audit") == 0) {
+        return viewer_audit(s->v) == 0 || fail(s, "the window is not for everybody");
     }
     if (strcmp(line, "note") == 0) {
         g_print("%s\n", rest);
