@@ -5,6 +5,8 @@
 #include "scene_look.h"
 #include "ui.h"
 
+#include <srp/table.h>
+
 #include <gmodule.h>
 #include <math.h>
 #include <stdio.h>
@@ -21,11 +23,16 @@ typedef struct area {
     scene_light *light;
     bool moving, coarse; /* something moved just now; the picture that is shown is simplified */
     guint settle;        /* the moment's end; 0: none */
+    guint early;         /* light that is found before the force is there; 0: none */
     viewer_engine *lit;  /* whose light the renderer has, from there; NULL: none */
     srp_vec3 lit_sun;
 } area;
 
 enum { SETTLE_MS = 250 };
+/* From so many facets on, the light is found while the force is computed, and both are drawn at
+ * once, unless the force takes longer than this [s]. */
+enum { EARLY_FACETS = 5000 };
+static const double EARLY_SECONDS = 0.2;
 
 /* ---- OpenGL ---- */
 
@@ -82,6 +89,7 @@ static void on_unrealize(GtkGLArea *gl, gpointer user) {
         srp_renderer_destroy(a->renderer);
     }
     a->renderer = NULL;
+    g_clear_handle_id(&a->early, g_source_remove);
     g_clear_pointer(&a->drawn, viewer_engine_release);
     g_clear_pointer(&a->lit, viewer_engine_release);
 }
@@ -223,7 +231,7 @@ static void draw_axes_words(area *a, cairo_t *cr) {
     put_word(a, cr, srp_vec3_make(axes, 0.0, 0.0), "X", dark ? light[0] : red);
     put_word(a, cr, srp_vec3_make(0.0, axes, 0.0), "Y", dark ? light[1] : green);
     put_word(a, cr, srp_vec3_make(0.0, 0.0, axes), "Z", dark ? light[2] : blue);
-    srp_vec3 sun = srp_vec3_add_scaled(a->look.view.camera.target, 1.05 * a->look.view.sun_line,
+    srp_vec3 sun = srp_vec3_add_scaled(a->look.view.camera.target, 1.08 * a->look.view.sun_line,
                                        a->look.view.sun);
     put_word(a, cr, sun, "Sun", dark ? light[3] : gold);
 }
@@ -391,6 +399,50 @@ static void on_light(void *user) {
     gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
 }
 
+/* What the picture with the new force will need. */
+static gboolean find_light_early(gpointer user) {
+    area *a = user;
+    const viewer_session *s = a->v->session;
+    srp_render_light *light = NULL;
+    srp_error error;
+    double az, el;
+    a->early = 0;
+    viewer_attitude_sun(&s->attitude, &az, &el);
+    gtk_gl_area_make_current(GTK_GL_AREA(a->gl));
+    if (a->drawn == s->engine &&
+        srp_render_light_find(a->drawn->mesh, srp_direction_from_deg(az, el), NULL, NULL, &light,
+                              &error) == SRP_OK &&
+        srp_renderer_set_light(a->renderer, light, &error) != SRP_OK) {
+        show_trouble(a, error.message);
+    }
+    srp_render_light_destroy(light);
+    return G_SOURCE_REMOVE;
+}
+
+/* Only the Sun has moved, and the force will soon be there. */
+static bool waits_for_force(area *a, unsigned what) {
+    const viewer_session *s = a->v->session;
+    return what == CHANGED_SUN && a->v->shadows && !is_large(a) && s->engine == a->drawn &&
+           a->drawn != NULL && a->drawn->mesh != NULL && s->force_known &&
+           srp_scene_facet_count(a->drawn->mesh) > EARLY_FACETS &&
+           s->force.seconds < EARLY_SECONDS &&
+           viewer_worker_is_busy(a->v->requests.live, SLOT_FORCE);
+}
+
+static void draw_soon(area *a, unsigned what) {
+    a->v->picture_is_old = true;
+    if (!waits_for_force(a, what)) {
+        gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
+        return;
+    }
+    if (a->early == 0) {
+        a->early = g_idle_add_full(G_PRIORITY_HIGH_IDLE, find_light_early, a, NULL);
+    }
+    if (a->settle == 0) { /* should the force fail */
+        a->settle = g_timeout_add(SETTLE_MS, on_settled, a);
+    }
+}
+
 static void notice_move(area *a) {
     g_clear_handle_id(&a->settle, g_source_remove);
     a->moving = is_large(a);
@@ -409,8 +461,7 @@ static void on_changed(void *user, unsigned what) {
         notice_move(a);
     }
     if (gtk_widget_get_mapped(a->gl) && a->renderer != NULL) {
-        a->v->picture_is_old = true;
-        gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
+        draw_soon(a, what);
     } else {
         a->v->asked_at = NAN;
     }
@@ -425,6 +476,7 @@ static void on_unmap(GtkWidget *widget, gpointer user) {
 static void free_area(gpointer user) {
     area *a = user;
     g_clear_handle_id(&a->settle, g_source_remove);
+    g_clear_handle_id(&a->early, g_source_remove);
     scene_light_destroy(a->light);
     viewer_engine_release(a->drawn);
     viewer_engine_release(a->lit);
