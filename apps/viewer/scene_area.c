@@ -201,6 +201,9 @@ static gboolean on_render(GtkGLArea *gl, GdkGLContext *context, gpointer user) {
         a->v->asked_at = NAN;
     }
     a->v->picture_is_old = a->coarse; /* the whole one is on its way */
+    if (!is_large(a)) {
+        g_clear_handle_id(&a->settle, g_source_remove); /* the newest is shown */
+    }
     gtk_widget_queue_draw(a->marks);
     return TRUE;
 }
