@@ -142,8 +142,8 @@ static void set_parameter(viewer *v, GVariant *parameter) {
 /* ---- attitude ---- */
 
 static void sun_moved(viewer *v) {
+    viewer_request_force(v); /* first: it is computed while the panes show the Sun */
     viewer_tell(v, CHANGED_SUN);
-    viewer_request_force(v);
 }
 
 static void turn(viewer *v, int axis, GVariant *parameter) {

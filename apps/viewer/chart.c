@@ -10,7 +10,7 @@
 
 struct viewer_charts {
     viewer *v;
-    GtkWidget *widget, *area[CHARTS], *pointer;
+    GtkWidget *widget, *area[CHARTS], *pointer, *empty;
     cli_picture picture;
     char *title;
     double *value;
@@ -182,7 +182,7 @@ static GtkWidget *make_area(viewer_charts *c, const char *name, int k) {
     gtk_widget_set_name(area, full);
     gtk_widget_set_hexpand(area, TRUE);
     gtk_widget_set_vexpand(area, TRUE);
-    gtk_widget_set_size_request(area, 220, 150);
+    gtk_widget_set_size_request(area, 180, 150);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(area), draw, c, NULL);
     GtkEventController *motion = gtk_event_controller_motion_new();
     g_signal_connect(motion, "motion", G_CALLBACK(on_motion), c);
@@ -209,7 +209,13 @@ viewer_charts *viewer_charts_create(viewer *v, const char *name, int columns) {
     }
     c->pointer = ui_label("", "value below");
     gtk_widget_set_name(c->pointer, full);
-    gtk_box_append(GTK_BOX(c->widget), grid);
+    c->empty = ui_label("Nothing to show yet: compute a table, or open one.", "dim");
+    gtk_widget_set_halign(c->empty, GTK_ALIGN_CENTER);
+    gtk_widget_set_valign(c->empty, GTK_ALIGN_CENTER);
+    GtkWidget *overlay = gtk_overlay_new();
+    gtk_overlay_set_child(GTK_OVERLAY(overlay), grid);
+    gtk_overlay_add_overlay(GTK_OVERLAY(overlay), c->empty);
+    gtk_box_append(GTK_BOX(c->widget), overlay);
     gtk_box_append(GTK_BOX(c->widget), c->pointer);
     g_object_set_data_full(G_OBJECT(c->widget), "charts", c, free_charts);
     viewer_listen(v, on_changed, c);
@@ -228,6 +234,7 @@ void viewer_charts_show(viewer_charts *c, const char *title, srp_grid grid, doub
     c->value = value;
     c->title = g_strdup(title);
     c->marked = false;
+    gtk_widget_set_visible(c->empty, value == NULL);
     c->picture = (cli_picture){
         .title = c->title, .columns = 1, .rows = CHARTS, .grid = {grid}, .is_signed = {1, 1, 1, 0}};
     size_t nodes = srp_grid_node_count(grid);

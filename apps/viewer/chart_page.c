@@ -34,11 +34,13 @@ static void open_page(const viewer_page *page, cairo_t *cr) {
     plsmin(0.0, 0.7);
 }
 
-/* All of the page, or as much of its height as keeps the words along the axes upright. */
+/* All of the page, or as much of its height as keeps the words along the axes upright, which then
+ * need room at the sides. */
 static cli_panel panel_of(const viewer_page *page) {
     const double narrowest = 1.25;
     double share = fmin(1.0, page->width / (narrowest * page->height));
-    return (cli_panel){0.0, 1.0, 0.5 - 0.5 * share, 0.5 + 0.5 * share};
+    double side = share < 1.0 ? 0.03 : 0.0;
+    return (cli_panel){side, 1.0 - side, 0.5 - 0.5 * share, 0.5 + 0.5 * share};
 }
 
 bool viewer_page_draw(const viewer_page *page, cairo_t *cr) {
@@ -87,7 +89,8 @@ static place place_of(const viewer_page *page, const projection *p, uint32_t i, 
     double z = (value - p->low) / (p->high - p->low);
     double across = x * p->cos_az - y * p->sin_az, along = x * p->sin_az + y * p->cos_az;
     double up = along * p->sin_alt + z * p->cos_alt;
-    return (place){page->width * (across - p->x0) / (p->x1 - p->x0),
+    double side = (across - p->x0) / (p->x1 - p->x0);
+    return (place){page->width * (p->panel.left + (p->panel.right - p->panel.left) * side),
                    page->height *
                        (1.0 - p->panel.bottom -
                         (p->panel.top - p->panel.bottom) * (up - p->y0) / (p->y1 - p->y0)),

@@ -242,7 +242,7 @@ static GtkWidget *make_numbers(pane *p) {
             char name[48];
             snprintf(name, sizeof name, "%s-%s", CLI_DIFFERENCE_NAME[r], words[c]);
             p->number[r][c] = ui_value(name);
-            gtk_widget_set_size_request(p->number[r][c], 110, -1);
+            gtk_widget_set_size_request(p->number[r][c], 96, -1);
             gtk_label_set_text(GTK_LABEL(p->number[r][c]), "—");
             gtk_grid_attach(GTK_GRID(grid), p->number[r][c], 1 + c, 1 + r, 1, 1);
         }
@@ -274,6 +274,7 @@ static GtkWidget *make_strip(pane *p) {
     p->plates = gtk_spin_button_new_with_range(1.0, CLI_NORMALS_MAX, 1.0);
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), 8.0);
     gtk_editable_set_width_chars(GTK_EDITABLE(p->plates), 2);
+    ui_name(p->plates, "Number of plates");
     gtk_widget_set_name(p->plates, "plates-count");
     gtk_widget_set_tooltip_text(p->plates, "How many plates");
     gtk_widget_set_valign(p->plates, GTK_ALIGN_CENTER);
@@ -301,7 +302,7 @@ GtkWidget *viewer_compare_tab(viewer *v) {
     gtk_widget_set_margin_start(p->facts, 12);
     gtk_widget_set_margin_top(p->facts, 4);
     g_object_set_data(G_OBJECT(v->window), "comparison-charts", p->charts);
-    gtk_box_append(GTK_BOX(box), make_strip(p));
+    gtk_box_append(GTK_BOX(box), ui_strip(make_strip(p)));
     gtk_box_append(GTK_BOX(box), p->facts);
     gtk_box_append(GTK_BOX(box), make_numbers(p));
     gtk_box_append(GTK_BOX(box), viewer_charts_widget(p->charts));

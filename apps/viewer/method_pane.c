@@ -227,7 +227,9 @@ static GtkWidget *meter(const char *word, GtkWidget **boxes, GtkWidget **words, 
     *words = ui_label("", "dim small");
     gtk_widget_set_name(*boxes, name);
     gtk_widget_set_name(*words, full);
-    gtk_label_set_width_chars(GTK_LABEL(*words), 22);
+    gtk_label_set_wrap(GTK_LABEL(*words), TRUE);
+    gtk_label_set_natural_wrap_mode(GTK_LABEL(*words), GTK_NATURAL_WRAP_NONE);
+    gtk_label_set_max_width_chars(GTK_LABEL(*words), 24);
     gtk_box_append(GTK_BOX(box), ui_label(word, NULL));
     gtk_box_append(GTK_BOX(box), *boxes);
     gtk_box_append(GTK_BOX(box), *words);
@@ -271,7 +273,8 @@ GtkWidget *viewer_method_pane(viewer *v) {
     p->parameters = ui_box(GTK_ORIENTATION_HORIZONTAL, 14);
     make_more(p);
     GtkWidget *first = ui_box(GTK_ORIENTATION_HORIZONTAL, 10);
-    GtkWidget *second = p->second = ui_box(GTK_ORIENTATION_HORIZONTAL, 10);
+    GtkWidget *second = ui_box(GTK_ORIENTATION_HORIZONTAL, 10);
+    p->second = ui_strip(second);
     GtkWidget *word = ui_mnemonic("Metho_d", p->method);
     gtk_widget_add_css_class(word, "title-word");
     gtk_box_append(GTK_BOX(first), word);
@@ -294,7 +297,7 @@ GtkWidget *viewer_method_pane(viewer *v) {
                          "box for each factor of ten: 1, 10, 100, ... directions per second."));
     GtkWidget *box = ui_box(GTK_ORIENTATION_VERTICAL, 4);
     gtk_box_append(GTK_BOX(box), first);
-    gtk_box_append(GTK_BOX(box), second);
+    gtk_box_append(GTK_BOX(box), p->second);
     gtk_widget_add_css_class(box, "pane");
     g_object_set_data_full(G_OBJECT(box), "pane", p, g_free);
     viewer_listen(v, on_changed, p);

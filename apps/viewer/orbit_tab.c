@@ -17,7 +17,7 @@ typedef struct pane {
 } pane;
 
 static const double CURVE[4][3] = {
-    {0.00, 0.45, 0.70}, {0.84, 0.37, 0.00}, {0.00, 0.62, 0.45}, {0.35, 0.35, 0.35}};
+    {0.00, 0.45, 0.70}, {0.84, 0.37, 0.00}, {0.00, 0.62, 0.45}, {0.50, 0.50, 0.50}};
 static const char *const DIFFERENCE[4] = {"radial", "along-track", "cross-track", "distance"};
 static const char *const POSITION[4] = {"x", "y", "z", "distance from the centre"};
 
@@ -209,9 +209,11 @@ static GtkWidget *make_strip(pane *p) {
     p->file[1] = ui_button("Compare _with…", "choose-versus", "Open the mission to compare with");
     p->drop = ui_button("×", "versus", "Compare with none");
     gtk_actionable_set_action_target(GTK_ACTIONABLE(p->drop), "s", "");
+    ui_name(p->drop, "Compare with none");
     p->cancel = ui_button("C_ancel", "cancel", "Stop (Ctrl+.)");
     gtk_widget_set_name(p->cancel, "cancel-orbit");
     p->progress = gtk_progress_bar_new();
+    ui_name(p->progress, "Progress of the missions");
     gtk_widget_set_valign(p->progress, GTK_ALIGN_CENTER);
     gtk_widget_set_hexpand(p->progress, TRUE);
     gtk_box_append(GTK_BOX(box), p->file[0]);
@@ -244,7 +246,7 @@ GtkWidget *viewer_orbit_tab(viewer *v) {
     gtk_widget_set_hexpand(p->plot, TRUE);
     gtk_widget_set_vexpand(p->plot, TRUE);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(p->plot), draw, p, NULL);
-    gtk_box_append(GTK_BOX(box), make_strip(p));
+    gtk_box_append(GTK_BOX(box), ui_strip(make_strip(p)));
     gtk_box_append(GTK_BOX(box), p->facts);
     gtk_box_append(GTK_BOX(box), p->last);
     gtk_box_append(GTK_BOX(box), p->plot);

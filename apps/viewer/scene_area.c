@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene_area.h"
 
+#include "scene_light.h"
 #include "scene_look.h"
 #include "ui.h"
+
+#include <srp/table.h>
 
 #include <gmodule.h>
 #include <math.h>
@@ -16,7 +19,20 @@ typedef struct area {
     viewer_engine *drawn; /* whose mesh the renderer has */
     viewer_look look;
     double drag_az, drag_el;
+    /* A large spacecraft is drawn simplified until nothing has moved for a moment. */
+    scene_light *light;
+    bool moving, coarse; /* something moved just now; the picture that is shown is simplified */
+    guint settle;        /* the moment's end; 0: none */
+    guint early;         /* light that is found before the force is there; 0: none */
+    viewer_engine *lit;  /* whose light the renderer has, from there; NULL: none */
+    srp_vec3 lit_sun;
 } area;
+
+enum { SETTLE_MS = 250 };
+/* From so many facets on, the light is found while the force is computed, and both are drawn at
+ * once, unless the force takes longer than this [s]. */
+enum { EARLY_FACETS = 5000 };
+static const double EARLY_SECONDS = 0.2;
 
 /* ---- OpenGL ---- */
 
@@ -73,7 +89,9 @@ static void on_unrealize(GtkGLArea *gl, gpointer user) {
         srp_renderer_destroy(a->renderer);
     }
     a->renderer = NULL;
+    g_clear_handle_id(&a->early, g_source_remove);
     g_clear_pointer(&a->drawn, viewer_engine_release);
+    g_clear_pointer(&a->lit, viewer_engine_release);
 }
 
 /* Gives the renderer the mesh of the newest engine. */
@@ -90,14 +108,47 @@ static bool bring_scene(area *a) {
     }
     viewer_engine_release(a->drawn);
     a->drawn = viewer_engine_reference(engine);
+    g_clear_pointer(&a->lit, viewer_engine_release);
     return scene != NULL;
 }
 
-static srp_render_colour background(void) {
+static bool is_large(const area *a) {
+    const viewer_engine *engine = a->v->session->engine;
+    return engine != NULL && engine->mesh != NULL &&
+           srp_scene_facet_count(engine->mesh) > SRP_RENDER_COARSE_FACETS;
+}
+
+/* Gives the renderer the light of a large spacecraft; false: not found yet. */
+static bool bring_light(area *a, srp_render_view *view) {
+    const srp_render_light *found;
+    srp_error error;
+    srp_vec3 sun = view->sun;
+    scene_light_ask(a->light, a->drawn, sun);
+    scene_light_state state = scene_light_look(a->light, a->drawn, sun, &found);
+    bool known = a->lit == a->drawn && a->lit_sun.x == sun.x && a->lit_sun.y == sun.y &&
+                 a->lit_sun.z == sun.z;
+    if (state == LIGHT_FOUND && !known) {
+        known = srp_renderer_set_light(a->renderer, found, &error) == SRP_OK;
+        g_clear_pointer(&a->lit, viewer_engine_release);
+        a->lit = known ? viewer_engine_reference(a->drawn) : NULL;
+        a->lit_sun = sun;
+    }
+    if (state != LIGHT_UNKNOWN && !known) {
+        view->shadows = false;
+        show_trouble(a, "There is no memory for shadows.");
+    }
+    return state != LIGHT_UNKNOWN;
+}
+
+static bool is_dark(void) {
     gboolean dark = FALSE;
     g_object_get(gtk_settings_get_default(), "gtk-application-prefer-dark-theme", &dark, NULL);
-    return dark ? (srp_render_colour){0.13f, 0.13f, 0.15f}
-                : (srp_render_colour){0.97f, 0.97f, 0.98f};
+    return dark;
+}
+
+static srp_render_colour background(void) {
+    return is_dark() ? (srp_render_colour){0.13f, 0.13f, 0.15f}
+                     : (srp_render_colour){0.97f, 0.97f, 0.98f};
 }
 
 static void draw_scene(area *a) {
@@ -111,13 +162,15 @@ static void draw_scene(area *a) {
     viewer_look_make(v->session, v->camera.az_deg, v->camera.el_deg, v->camera.zoom, width, height,
                      &a->look);
     srp_render_view *view = &a->look.view;
-    view->shadows = view->shadows && v->shadows;
+    view->shadows = v->shadows;
     view->colouring = v->colouring == COLOUR_INCIDENCE ? SRP_RENDER_INCIDENCE
                       : v->colouring == COLOUR_FORCE   ? SRP_RENDER_FORCE
                                                        : SRP_RENDER_MATERIAL;
     view->value_low = 0.0;
     view->value_high = v->colouring == COLOUR_FORCE ? 2.0 : 1.0;
     view->background = background();
+    a->coarse = is_large(a) && (a->moving || (view->shadows && !bring_light(a, view)));
+    view->coarse = a->coarse;
     if (srp_renderer_draw(a->renderer, view, &error) != SRP_OK) {
         show_trouble(a, error.message);
     }
@@ -139,6 +192,7 @@ static void draw_nothing(area *a) {
 static gboolean on_render(GtkGLArea *gl, GdkGLContext *context, gpointer user) {
     area *a = user;
     (void)gl, (void)context;
+    a->coarse = false;
     if (a->renderer != NULL) {
         bring_scene(a) ? draw_scene(a) : draw_nothing(a);
     }
@@ -146,7 +200,10 @@ static gboolean on_render(GtkGLArea *gl, GdkGLContext *context, gpointer user) {
         viewer_session_add_latency(a->v->session, viewer_seconds() - a->v->asked_at);
         a->v->asked_at = NAN;
     }
-    a->v->picture_is_old = false;
+    a->v->picture_is_old = a->coarse; /* the whole one is on its way */
+    if (!is_large(a)) {
+        g_clear_handle_id(&a->settle, g_source_remove); /* the newest is shown */
+    }
     gtk_widget_queue_draw(a->marks);
     return TRUE;
 }
@@ -168,15 +225,18 @@ static void put_word(area *a, cairo_t *cr, srp_vec3 at, const char *word, const 
 static void draw_axes_words(area *a, cairo_t *cr) {
     static const double red[3] = {0.8, 0.1, 0.1}, green[3] = {0.1, 0.55, 0.15},
                         blue[3] = {0.15, 0.3, 0.85}, gold[3] = {0.75, 0.55, 0.0};
+    static const double light[4][3] = {
+        {1.0, 0.45, 0.45}, {0.45, 0.85, 0.5}, {0.5, 0.65, 1.0}, {1.0, 0.85, 0.2}};
+    bool dark = is_dark();
     double axes = 1.07 * a->look.view.axes;
     cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
     cairo_set_font_size(cr, 13.0);
-    put_word(a, cr, srp_vec3_make(axes, 0.0, 0.0), "X", red);
-    put_word(a, cr, srp_vec3_make(0.0, axes, 0.0), "Y", green);
-    put_word(a, cr, srp_vec3_make(0.0, 0.0, axes), "Z", blue);
-    srp_vec3 sun = srp_vec3_add_scaled(a->look.view.camera.target, 1.05 * a->look.view.sun_line,
+    put_word(a, cr, srp_vec3_make(axes, 0.0, 0.0), "X", dark ? light[0] : red);
+    put_word(a, cr, srp_vec3_make(0.0, axes, 0.0), "Y", dark ? light[1] : green);
+    put_word(a, cr, srp_vec3_make(0.0, 0.0, axes), "Z", dark ? light[2] : blue);
+    srp_vec3 sun = srp_vec3_add_scaled(a->look.view.camera.target, 1.08 * a->look.view.sun_line,
                                        a->look.view.sun);
-    put_word(a, cr, sun, "Sun", gold);
+    put_word(a, cr, sun, "Sun", dark ? light[3] : gold);
 }
 
 enum { BAR_STRIPS = 90 };
@@ -244,15 +304,30 @@ static void draw_material_names(area *a, GtkWidget *widget, cairo_t *cr, int hei
     }
 }
 
+static void draw_coarse_note(GtkWidget *widget, cairo_t *cr, int width, int height) {
+    const char *note = "Simplified while it moves; shadows follow";
+    GdkRGBA ink;
+    cairo_text_extents_t size;
+    gtk_style_context_get_color(gtk_widget_get_style_context(widget), &ink);
+    cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cr, 11.5);
+    gdk_cairo_set_source_rgba(cr, &ink);
+    cairo_text_extents(cr, note, &size);
+    cairo_move_to(cr, width - size.x_advance - 14.0, height - 14.0);
+    cairo_show_text(cr, note);
+}
+
 static void draw_marks(GtkDrawingArea *widget, cairo_t *cr, int width, int height, gpointer user) {
     area *a = user;
     srp_render_colour colours[BAR_STRIPS];
     double least, largest;
-    (void)width;
     if (a->drawn == NULL || a->drawn->mesh == NULL) {
         return;
     }
     draw_axes_words(a, cr);
+    if (a->coarse) {
+        draw_coarse_note(GTK_WIDGET(widget), cr, width, height);
+    }
     if (a->v->colouring == COLOUR_MATERIAL) {
         draw_material_names(a, GTK_WIDGET(widget), cr, height);
     } else {
@@ -296,7 +371,88 @@ static gboolean on_scroll(GtkEventControllerScroll *scroll, double dx, double dy
     return TRUE;
 }
 
+/* Arrow keys do what dragging does. */
+static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkModifierType held,
+                       gpointer user) {
+    area *a = user;
+    (void)keys, (void)code;
+    double across = (key == GDK_KEY_Left) - (key == GDK_KEY_Right);
+    double up = (key == GDK_KEY_Up) - (key == GDK_KEY_Down);
+    if ((held & gtk_accelerator_get_default_mod_mask()) != 0 || (across == 0.0 && up == 0.0)) {
+        return FALSE;
+    }
+    a->v->camera.az_deg = fmod(a->v->camera.az_deg + 5.0 * across, 360.0);
+    a->v->camera.el_deg = fmax(-90.0, fmin(90.0, a->v->camera.el_deg + 5.0 * up));
+    viewer_tell(a->v, CHANGED_VIEW);
+    return TRUE;
+}
+
 /* ---- together ---- */
+
+static gboolean on_settled(gpointer user) {
+    area *a = user;
+    a->settle = 0;
+    a->moving = false;
+    gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
+    return G_SOURCE_REMOVE;
+}
+
+static void on_light(void *user) {
+    area *a = user;
+    gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
+}
+
+/* What the picture with the new force will need. */
+static gboolean find_light_early(gpointer user) {
+    area *a = user;
+    const viewer_session *s = a->v->session;
+    srp_render_light *light = NULL;
+    srp_error error;
+    double az, el;
+    a->early = 0;
+    viewer_attitude_sun(&s->attitude, &az, &el);
+    gtk_gl_area_make_current(GTK_GL_AREA(a->gl));
+    if (a->drawn == s->engine &&
+        srp_render_light_find(a->drawn->mesh, srp_direction_from_deg(az, el), NULL, NULL, &light,
+                              &error) == SRP_OK &&
+        srp_renderer_set_light(a->renderer, light, &error) != SRP_OK) {
+        show_trouble(a, error.message);
+    }
+    srp_render_light_destroy(light);
+    return G_SOURCE_REMOVE;
+}
+
+/* Only the Sun has moved, and the force will soon be there. */
+static bool waits_for_force(area *a, unsigned what) {
+    const viewer_session *s = a->v->session;
+    return what == CHANGED_SUN && a->v->shadows && !is_large(a) && s->engine == a->drawn &&
+           a->drawn != NULL && a->drawn->mesh != NULL && s->force_known &&
+           srp_scene_facet_count(a->drawn->mesh) > EARLY_FACETS &&
+           s->force.seconds < EARLY_SECONDS &&
+           viewer_worker_is_busy(a->v->requests.live, SLOT_FORCE);
+}
+
+static void draw_soon(area *a, unsigned what) {
+    a->v->picture_is_old = true;
+    if (!waits_for_force(a, what)) {
+        gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
+        return;
+    }
+    if (a->early == 0) {
+        a->early = g_idle_add_full(G_PRIORITY_HIGH_IDLE, find_light_early, a, NULL);
+    }
+    if (a->settle == 0) { /* should the force fail */
+        a->settle = g_timeout_add(SETTLE_MS, on_settled, a);
+    }
+}
+
+static void notice_move(area *a) {
+    g_clear_handle_id(&a->settle, g_source_remove);
+    a->moving = is_large(a);
+    if (a->moving) {
+        a->settle = g_timeout_add(SETTLE_MS, on_settled, a);
+    }
+}
 
 static void on_changed(void *user, unsigned what) {
     area *a = user;
@@ -304,9 +460,11 @@ static void on_changed(void *user, unsigned what) {
         0) {
         return;
     }
+    if ((what & (CHANGED_ENGINE | CHANGED_SUN | CHANGED_VIEW)) != 0) {
+        notice_move(a);
+    }
     if (gtk_widget_get_mapped(a->gl) && a->renderer != NULL) {
-        a->v->picture_is_old = true;
-        gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
+        draw_soon(a, what);
     } else {
         a->v->asked_at = NAN;
     }
@@ -320,7 +478,11 @@ static void on_unmap(GtkWidget *widget, gpointer user) {
 
 static void free_area(gpointer user) {
     area *a = user;
+    g_clear_handle_id(&a->settle, g_source_remove);
+    g_clear_handle_id(&a->early, g_source_remove);
+    scene_light_destroy(a->light);
     viewer_engine_release(a->drawn);
+    viewer_engine_release(a->lit);
     if (a->library != NULL) {
         g_module_close(a->library);
     }
@@ -330,10 +492,12 @@ static void free_area(gpointer user) {
 GtkWidget *viewer_scene_area(viewer *v) {
     area *a = g_new0(area, 1);
     a->v = v;
+    a->light = scene_light_create(on_light, a);
     a->gl = gtk_gl_area_new();
     gtk_gl_area_set_required_version(GTK_GL_AREA(a->gl), 3, 3);
     gtk_gl_area_set_auto_render(GTK_GL_AREA(a->gl), FALSE);
     gtk_widget_set_name(a->gl, "scene");
+    ui_name(a->gl, "Picture of the spacecraft; arrow keys turn the camera");
     gtk_widget_set_focusable(a->gl, TRUE);
     gtk_widget_set_size_request(a->gl, 320, 220);
     g_signal_connect(a->gl, "realize", G_CALLBACK(on_realize), a);
@@ -348,6 +512,9 @@ GtkWidget *viewer_scene_area(viewer *v) {
         gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
     g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), a);
     gtk_widget_add_controller(a->gl, scroll);
+    GtkEventController *keys = gtk_event_controller_key_new();
+    g_signal_connect(keys, "key-pressed", G_CALLBACK(on_key), a);
+    gtk_widget_add_controller(a->gl, keys);
     a->marks = gtk_drawing_area_new();
     gtk_widget_set_can_target(a->marks, FALSE);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(a->marks), draw_marks, a, NULL);

@@ -95,7 +95,6 @@ void viewer_look_make(const viewer_session *session, double az_deg, double el_de
     out->view.sun = srp_direction_from_deg(az, el);
     out->view.axes = AXES * out->radius;
     out->view.sun_line = SUN_LINE * out->radius;
-    out->view.shadows = srp_scene_facet_count(session->engine->mesh) <= LOOK_SHADOW_FACETS;
     out->view.edges = srp_scene_facet_count(session->engine->mesh) <= 5000;
     fill_map(out);
     add_arrows(session, out);

@@ -10,9 +10,6 @@
 
 enum { LOOK_MAP_SIZE = 256, LOOK_ARROWS_MAX = 4096 };
 
-/* Facets above which shadows are left out: they are found on the window's thread. */
-enum { LOOK_SHADOW_FACETS = 60000 };
-
 typedef struct viewer_look {
     srp_render_view view;
     double radius; /* [m] of the ball about the target that holds the spacecraft */

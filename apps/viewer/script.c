@@ -2,9 +2,11 @@
 #include "script.h"
 
 #include "actions.h"
+#include "audit.h"
 #include "screenshot.h"
 #include "ui.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,6 +20,8 @@ typedef struct script {
     bool quiet; /* nothing is computed any more, since frame `quiet_at` */
     gint64 quiet_at;
     const char *shot; /* picture to take when all is shown; NULL: none */
+    double ticked_at; /* NAN: not since the last `stall` */
+    double stall;     /* the longest time between two ticks since then [s] */
 } script;
 
 enum { TICK_MS = 4, QUIET_FRAMES = 3 };
@@ -194,6 +198,15 @@ static gboolean step(script *s, char *line) {
         s->quiet = false;
         return TRUE;
     }
+    if (strcmp(line, "stall") == 0) {
+        g_print("stall: %.0f ms\n", 1e3 * s->stall);
+        s->stall = 0.0;
+        s->ticked_at = NAN;
+        return TRUE;
+    }
+    if (strcmp(line, "audit") == 0) {
+        return viewer_audit(s->v) == 0 || fail(s, "the window is not for everybody");
+    }
     if (strcmp(line, "note") == 0) {
         g_print("%s\n", rest);
         return TRUE;
@@ -228,8 +241,16 @@ static bool is_unsettled(script *s) {
     return false;
 }
 
+/* How long the window was deaf. */
+static void notice_stall(script *s) {
+    double now = viewer_seconds();
+    s->stall = fmax(s->stall, now - s->ticked_at); /* of NAN and a number the number */
+    s->ticked_at = now;
+}
+
 static gboolean tick(gpointer user) {
     script *s = user;
+    notice_stall(s);
     if (s->v->window == NULL) {
         return G_SOURCE_REMOVE;
     }
@@ -252,6 +273,7 @@ void viewer_script_run(viewer *v, const char *name, char *text) {
     script *s = g_new0(script, 1);
     s->v = v;
     s->name = g_strdup(name);
+    s->ticked_at = NAN;
     s->lines = g_strsplit(text, "\n", -1);
     g_free(text);
     g_timeout_add_full(G_PRIORITY_DEFAULT, TICK_MS, tick, s, script_free);

@@ -93,6 +93,7 @@ static GtkWidget *share(row *r, const char *kind, double value) {
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(spin), value);
     gtk_editable_set_width_chars(GTK_EDITABLE(spin), 6);
     gtk_widget_set_name(spin, name);
+    ui_name(spin, name);
     g_signal_connect(spin, "value-changed", G_CALLBACK(on_optics), r);
     g_free(name);
     return spin;
@@ -117,6 +118,9 @@ static void add_row(pane *p, const viewer_engine *engine, size_t index, int at) 
     r->rho_s = share(r, "rho-s", optics.rho_s);
     r->rho_d = share(r, "rho-d", optics.rho_d);
     r->one_sided = gtk_check_button_new();
+    char *words = g_strconcat("one-sided ", r->name, NULL);
+    ui_name(r->one_sided, words);
+    g_free(words);
     gtk_widget_set_halign(r->one_sided, GTK_ALIGN_CENTER);
     gtk_check_button_set_active(GTK_CHECK_BUTTON(r->one_sided), optics.one_sided);
     g_signal_connect(r->one_sided, "toggled", G_CALLBACK(on_optics), r);

@@ -149,9 +149,10 @@ static GtkWidget *make_strip(pane *p) {
     p->cancel = ui_button("C_ancel", "cancel", "Stop (Ctrl+.)");
     p->progress = gtk_progress_bar_new();
     gtk_widget_set_name(p->progress, "progress");
+    ui_name(p->progress, "Progress of the table");
     gtk_progress_bar_set_show_text(GTK_PROGRESS_BAR(p->progress), TRUE);
     gtk_widget_set_valign(p->progress, GTK_ALIGN_CENTER);
-    gtk_widget_set_size_request(p->progress, 190, -1);
+    gtk_widget_set_size_request(p->progress, 150, -1);
     p->table = ui_choice("table", G_CALLBACK(on_choice), p);
     gtk_widget_set_hexpand(p->table, TRUE);
     p->reoptic = ui_button("_Re-optic", "reoptic",
@@ -216,7 +217,7 @@ GtkWidget *viewer_table_tab(viewer *v) {
     GtkWidget *box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
     p->charts = viewer_charts_create(v, "chart", 2);
     g_object_set_data(G_OBJECT(v->window), "table-charts", p->charts);
-    gtk_box_append(GTK_BOX(box), make_strip(p));
+    gtk_box_append(GTK_BOX(box), ui_strip(make_strip(p)));
     gtk_box_append(GTK_BOX(box), viewer_charts_widget(p->charts));
     g_object_set_data_full(G_OBJECT(box), "pane", p, free_pane);
     viewer_listen(v, on_changed, p);

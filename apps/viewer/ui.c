@@ -52,6 +52,20 @@ GtkWidget *ui_button(const char *text, const char *action, const char *tip) {
     return button;
 }
 
+void ui_name(GtkWidget *widget, const char *words) {
+    gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL, words,
+                                   -1);
+}
+
+GtkWidget *ui_strip(GtkWidget *line) {
+    GtkWidget *strip = gtk_scrolled_window_new();
+    gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(strip), line);
+    gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(strip), GTK_POLICY_AUTOMATIC,
+                                   GTK_POLICY_NEVER);
+    gtk_scrolled_window_set_propagate_natural_width(GTK_SCROLLED_WINDOW(strip), TRUE);
+    return strip;
+}
+
 GtkWidget *ui_explanation(const char *heading, const char *text) {
     GtkWidget *button = gtk_menu_button_new();
     GtkWidget *popover = gtk_popover_new(), *box = ui_box(GTK_ORIENTATION_VERTICAL, 6);
@@ -67,6 +81,9 @@ GtkWidget *ui_explanation(const char *heading, const char *text) {
     gtk_widget_add_css_class(button, "explain");
     gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
     gtk_widget_set_tooltip_text(button, text);
+    char *name = g_strdup_printf("About: %s", heading);
+    ui_name(button, name);
+    g_free(name);
     return button;
 }
 

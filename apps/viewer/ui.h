@@ -17,6 +17,10 @@ GtkWidget *ui_value(const char *name);
 GtkWidget *ui_mnemonic(const char *text, GtkWidget *target);
 /* A button "_Text" that activates the action "win.name". */
 GtkWidget *ui_button(const char *text, const char *action, const char *tip);
+/* What a screen reader calls a widget that no words beside it name. */
+void ui_name(GtkWidget *widget, const char *words);
+/* A line of controls, which scrolls where the window is too narrow for it. */
+GtkWidget *ui_strip(GtkWidget *line);
 /* A small "i" that explains. */
 GtkWidget *ui_explanation(const char *heading, const char *text);
 /* An entry `width` characters wide that sends its text to `action` as "KEY=text" (key NULL: the

@@ -93,6 +93,7 @@ static GtkWidget *make_message(frame *f) {
     gtk_widget_set_hexpand(f->message, TRUE);
     gtk_button_set_has_frame(GTK_BUTTON(dismiss), FALSE);
     gtk_widget_set_tooltip_text(dismiss, "Dismiss");
+    ui_name(dismiss, "Dismiss");
     gtk_widget_set_valign(dismiss, GTK_ALIGN_START);
     g_signal_connect(dismiss, "clicked", G_CALLBACK(on_dismiss), f);
     gtk_box_append(GTK_BOX(box), f->message);

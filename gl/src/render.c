@@ -50,22 +50,27 @@ static void create_batch(const srp_gl_functions *gl, srp_render_batch *batch) {
                              (const void *)offsetof(srp_render_corner, paint));
 }
 
-void srp_render_batch_fill(srp_renderer *renderer, int index, GLenum usage) {
+void srp_render_batch_fill(srp_renderer *renderer, int index, const srp_render_corners *from,
+                           GLenum usage) {
     const srp_gl_functions *gl = &renderer->context.gl;
     srp_render_batch *batch = &renderer->batch[index];
-    const srp_render_corners *from = &renderer->scratch;
     gl->BindBuffer(GL_ARRAY_BUFFER, batch->buffer);
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(from->count * sizeof *from->at), from->at, usage);
     batch->count = from->count;
 }
 
-static void draw_batch(const srp_renderer *renderer, int index, GLenum kind, size_t first) {
+static void draw_part(const srp_renderer *renderer, int index, size_t first, size_t end) {
     const srp_gl_functions *gl = &renderer->context.gl;
     const srp_render_batch *batch = &renderer->batch[index];
-    if (batch->count > first) {
+    if (end > first) {
         gl->BindVertexArray(batch->array);
-        gl->DrawArrays(kind, (GLint)first, (GLsizei)(batch->count - first));
+        gl->DrawArrays(index == SRP_RENDER_EDGES ? GL_LINES : GL_TRIANGLES, (GLint)first,
+                       (GLsizei)(end - first));
     }
+}
+
+static void draw_batch(const srp_renderer *renderer, int index) {
+    draw_part(renderer, index, 0, renderer->batch[index].count);
 }
 
 /* ---- life ---- */
@@ -172,23 +177,22 @@ srp_status srp_renderer_set_scene(srp_renderer *renderer, const srp_scene *scene
     }
     size_t rows = (scene->facet_count + SRP_RENDER_ROW - 1) / SRP_RENDER_ROW;
     uint8_t *paint = calloc(rows * SRP_RENDER_ROW, 4);
-    srp_visible *visible = srp_visible_create(scene);
     renderer->scratch.count = 0;
-    if (paint == NULL || visible == NULL ||
-        !srp_render_corners_reserve(&renderer->scratch, 6 * scene->facet_count)) {
+    if (paint == NULL || !srp_render_corners_reserve(&renderer->scratch, 3 * scene->facet_count)) {
         free(paint);
-        srp_visible_destroy(visible);
         return srp_fail(error, SRP_NO_MEMORY, "no memory for a picture of %zu facets",
                         scene->facet_count);
     }
     srp_visible_destroy(renderer->visible);
     free(renderer->paint);
-    renderer->visible = visible;
+    renderer->visible = NULL; /* made when it is needed, as are the edges */
     renderer->paint = paint;
+    renderer->paint_known = false;
     renderer->scene = scene;
     renderer->lit_known = false;
+    renderer->edges_known = false;
     srp_render_send_body(renderer, scene);
-    srp_render_send_edges(renderer, scene);
+    srp_render_send_coarse(renderer, scene);
     status = srp_gl_context_check(&renderer->context, "the facets of the model", error);
     renderer->scene = status == SRP_OK ? scene : NULL;
     return status;
@@ -262,6 +266,21 @@ static void set_uniforms(const srp_renderer *renderer, const srp_render_view *vi
     gl->Uniform1f(renderer->opacity, 1.0F);
 }
 
+static bool is_coarse(const srp_renderer *renderer, const srp_render_view *view) {
+    return view->coarse && renderer->batch[SRP_RENDER_COARSE].count > 0;
+}
+
+static void draw_coarse(const srp_renderer *renderer, const srp_render_view *view) {
+    const srp_gl_functions *gl = &renderer->context.gl;
+    gl->Uniform1f(renderer->lit, view->shadows ? 2.0F : 1.0F);
+    gl->CullFace(GL_BACK);
+    draw_part(renderer, SRP_RENDER_COARSE, 0, renderer->closed_coarse);
+    gl->Disable(GL_CULL_FACE);
+    draw_part(renderer, SRP_RENDER_COARSE, renderer->closed_coarse,
+              renderer->batch[SRP_RENDER_COARSE].count);
+    gl->Enable(GL_CULL_FACE);
+}
+
 /* The dark body, then its lit parts over it: they win where the two lie in one plane, beyond the
  * rounding of depths, steep planes included. */
 static void draw_body(const srp_renderer *renderer, const srp_render_view *view) {
@@ -271,20 +290,21 @@ static void draw_body(const srp_renderer *renderer, const srp_render_view *view)
     gl->PolygonOffset(0.05F,
                       8.0F); /* the backs of open parts, which fronts in one place win over */
     gl->CullFace(GL_FRONT);
-    draw_batch(renderer, SRP_RENDER_BODY, GL_TRIANGLES, renderer->closed_corners);
+    draw_part(renderer, SRP_RENDER_BODY, renderer->closed_corners,
+              renderer->batch[SRP_RENDER_BODY].count);
     gl->Disable(GL_POLYGON_OFFSET_FILL);
     gl->CullFace(GL_BACK);
-    draw_batch(renderer, SRP_RENDER_BODY, GL_TRIANGLES, 0);
+    draw_batch(renderer, SRP_RENDER_BODY);
     if (view->shadows) {
         gl->Enable(GL_POLYGON_OFFSET_FILL);
         gl->PolygonOffset(-0.05F, -16.0F);
         gl->Uniform1f(renderer->lit, 1.0F);
-        draw_batch(renderer, SRP_RENDER_LIT, GL_TRIANGLES, 0);
+        draw_batch(renderer, SRP_RENDER_LIT);
         gl->Disable(GL_POLYGON_OFFSET_FILL);
     }
     if (view->edges) {
         gl->Uniform1f(renderer->nearer, 4e-4F);
-        draw_batch(renderer, SRP_RENDER_EDGES, GL_LINES, 0);
+        draw_batch(renderer, SRP_RENDER_EDGES);
         gl->Uniform1f(renderer->nearer, 0.0F);
     }
 }
@@ -297,12 +317,12 @@ static void draw_marks(const srp_renderer *renderer) {
     gl->DepthMask(GL_FALSE);
     gl->DepthFunc(GL_GREATER);
     gl->Uniform1f(renderer->opacity, 0.35F);
-    draw_batch(renderer, SRP_RENDER_MARKS, GL_TRIANGLES, 0);
+    draw_batch(renderer, SRP_RENDER_MARKS);
     gl->Disable(GL_BLEND);
     gl->DepthMask(GL_TRUE);
     gl->DepthFunc(GL_LEQUAL);
     gl->Uniform1f(renderer->opacity, 1.0F);
-    draw_batch(renderer, SRP_RENDER_MARKS, GL_TRIANGLES, 0);
+    draw_batch(renderer, SRP_RENDER_MARKS);
 }
 
 static void draw_all(srp_renderer *renderer, const srp_render_view *view, int x, int y,
@@ -316,7 +336,7 @@ static void draw_all(srp_renderer *renderer, const srp_render_view *view, int x,
     gl->ClearBufferfv(GL_DEPTH, 0, FAR);
     if (renderer->scene != NULL) {
         srp_render_send_colours(renderer, view);
-        draw_body(renderer, view);
+        is_coarse(renderer, view) ? draw_coarse(renderer, view) : draw_body(renderer, view);
     }
     draw_marks(renderer);
     leave_state(renderer);
@@ -351,14 +371,15 @@ static srp_status prepare(srp_renderer *renderer, const srp_render_view *view, f
     srp_render_matrix(view, centre, radius, reach, rows);
     bool known = renderer->lit_known && sun.x == renderer->lit_from.x &&
                  sun.y == renderer->lit_from.y && sun.z == renderer->lit_from.z;
-    if (scene != NULL && view->shadows && !known) {
-        renderer->lit_known = false;
-        srp_status status = srp_render_send_lit(renderer, sun, error);
-        if (status != SRP_OK) {
-            return status;
-        }
-        renderer->lit_from = sun;
-        renderer->lit_known = true;
+    srp_status status = SRP_OK;
+    if (scene != NULL && view->shadows && !known && !is_coarse(renderer, view)) {
+        status = srp_render_send_lit(renderer, sun, error);
+    }
+    if (status == SRP_OK && scene != NULL && view->edges && !renderer->edges_known) {
+        status = srp_render_send_edges(renderer, scene, error);
+    }
+    if (status != SRP_OK) {
+        return status;
     }
     return srp_render_send_marks(renderer, view, centre, radius, error);
 }

@@ -39,7 +39,14 @@ typedef struct srp_render_target {
     int width, height, samples;
 } srp_render_target;
 
-enum { SRP_RENDER_BODY, SRP_RENDER_LIT, SRP_RENDER_EDGES, SRP_RENDER_MARKS, SRP_RENDER_BATCHES };
+enum {
+    SRP_RENDER_BODY,
+    SRP_RENDER_COARSE, /* the body of a large scene, simplified; of others empty */
+    SRP_RENDER_LIT,
+    SRP_RENDER_EDGES,
+    SRP_RENDER_MARKS,
+    SRP_RENDER_BATCHES
+};
 
 struct srp_renderer {
     srp_gl_context context;
@@ -47,14 +54,16 @@ struct srp_renderer {
     GLint rows, nearer, eye, sun, lit, data, opacity; /* places of uniforms */
     srp_render_batch batch[SRP_RENDER_BATCHES];
     size_t closed_corners;      /* of the body: the first, of closed parts, which have no backs */
+    size_t closed_coarse;       /* of the simplified body */
     GLuint colours;             /* a texture: one of each facet */
     srp_render_target smooth;   /* with several samples for each pixel */
     srp_render_corners scratch; /* what goes to the GPU next */
     uint8_t *paint;             /* (rows of the texture, SRP_RENDER_ROW, 4) */
     const srp_scene *scene;     /* NULL: nothing to draw */
-    srp_visible *visible;
-    srp_vec3 lit_from; /* the Sun of the lit parts */
-    bool lit_known;
+    srp_visible *visible;       /* NULL: not needed so far */
+    srp_vec3 lit_from;          /* the Sun of the lit parts */
+    bool lit_known, edges_known;
+    bool paint_known; /* the colours are those that materials have by themselves */
 };
 
 /* Facets to a row of the texture of colours, as the fragment shader has it. */
@@ -79,13 +88,25 @@ bool srp_render_corners_reserve(srp_render_corners *corners, size_t more);
 void srp_render_corners_add(srp_render_corners *corners, srp_vec3 position, srp_vec3 normal,
                             uint32_t paint);
 /* Sends what has been collected. */
-void srp_render_batch_fill(srp_renderer *renderer, int index, GLenum usage);
+void srp_render_batch_fill(srp_renderer *renderer, int index, const srp_render_corners *from,
+                           GLenum usage);
 
 /* ---- render_body.c: the scene ---- */
 
-/* The facets of a scene, and its edges; the scratch has room for six corners of each facet. */
+srp_vec3 srp_render_into_unit(const srp_scene *scene, srp_vec3 p);
+/* The facets of a scene; the scratch has room for three corners of each. */
 void srp_render_send_body(srp_renderer *renderer, const srp_scene *scene);
-void srp_render_send_edges(srp_renderer *renderer, const srp_scene *scene);
+/* SRP_NO_MEMORY. */
+srp_status srp_render_send_edges(srp_renderer *renderer, const srp_scene *scene, srp_error *error);
+
+/* ---- render_coarse.c ---- */
+
+/* The simplified body of a large scene; of a small one, and without memory, none. The scratch as
+ * above. */
+void srp_render_send_coarse(srp_renderer *renderer, const srp_scene *scene);
+
+/* ---- render_light.c ---- */
+
 /* The parts of facets that the Sun lights. SRP_NO_MEMORY. */
 srp_status srp_render_send_lit(srp_renderer *renderer, srp_vec3 sun, srp_error *error);
 

@@ -92,7 +92,13 @@ static srp_render_colour colour_of(const srp_scene *scene, const srp_render_view
 void srp_render_send_colours(srp_renderer *renderer, const srp_render_view *view) {
     const srp_gl_functions *gl = &renderer->context.gl;
     const srp_scene *scene = renderer->scene;
-    bool changed = false; /* most pictures differ from the last in the camera alone */
+    /* Most pictures differ from the last in the camera alone. */
+    bool plain = view->colouring == SRP_RENDER_MATERIAL && view->material_colours == NULL;
+    if (plain && renderer->paint_known) {
+        return;
+    }
+    bool changed = false;
+    renderer->paint_known = plain;
     for (size_t i = 0; i < scene->facet_count; ++i) {
         uint32_t paint = srp_render_paint(colour_of(scene, view, i));
         const uint8_t now[4] = {(uint8_t)(paint >> 16), (uint8_t)(paint >> 8), (uint8_t)paint, 255};

@@ -26,6 +26,14 @@ srp_render_colour srp_render_axis_colour(int axis) {
     return AXIS_COLOUR[axis >= 0 && axis < 3 ? axis : 0];
 }
 
+/* Lighter on a dark background. */
+static srp_render_colour axis_colour_on(srp_render_colour background, int axis) {
+    const float lift = background.r + background.g + background.b < 1.0F ? 0.4F : 0.0F;
+    srp_render_colour c = AXIS_COLOUR[axis];
+    return (srp_render_colour){c.r + lift * (1.0F - c.r), c.g + lift * (1.0F - c.g),
+                               c.b + lift * (1.0F - c.b)};
+}
+
 /* Where marks are built: unit space. */
 typedef struct drawer {
     srp_render_corners *to;
@@ -148,7 +156,8 @@ srp_status srp_render_send_marks(srp_renderer *renderer, const srp_render_view *
     const srp_vec3 axis[3] = {
         {view->axes, 0.0, 0.0}, {0.0, view->axes, 0.0}, {0.0, 0.0, view->axes}};
     for (int k = 0; k < 3; ++k) {
-        add_arrow(&draw, &(srp_render_arrow){.to = axis[k], .colour = AXIS_COLOUR[k]}, 0.7 * usual);
+        srp_render_colour colour = axis_colour_on(view->background, k);
+        add_arrow(&draw, &(srp_render_arrow){.to = axis[k], .colour = colour}, 0.7 * usual);
     }
     if (view->sun_line > 0.0) {
         add_arrow(&draw,
@@ -163,6 +172,6 @@ srp_status srp_render_send_marks(srp_renderer *renderer, const srp_render_view *
         const srp_render_arrow *arrow = &view->arrows[k];
         add_arrow(&draw, arrow, arrow->width > 0.0 ? arrow->width : usual);
     }
-    srp_render_batch_fill(renderer, SRP_RENDER_MARKS, GL_STREAM_DRAW);
+    srp_render_batch_fill(renderer, SRP_RENDER_MARKS, &renderer->scratch, GL_STREAM_DRAW);
     return SRP_OK;
 }

@@ -336,34 +336,63 @@ static srp_render_function find_nothing(void *user, const char *name) {
     return strcmp(name, "glBlitFramebuffer") == 0 ? NULL : find_in(user, name);
 }
 
+typedef struct guest {
+    srp_gl_context *context;
+    srp_renderer *renderer;
+    GLuint framebuffer, buffers[2];
+} guest;
+
+static guest open_guest(void) {
+    srp_error error;
+    guest g = {0};
+    assert_ok(srp_gl_context_create(srp_gl_device_find(gl_device_name), &g.context, &error), error);
+    assert_ok(srp_gl_context_enter(g.context, &error), error);
+    assert_ok(srp_renderer_create(find_in, g.context, &g.renderer, &error), error);
+    const srp_gl_functions *gl = &g.context->gl;
+    static const GLenum FORMAT[2] = {GL_RGBA8, GL_DEPTH_COMPONENT24};
+    static const GLenum PLACE[2] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+    gl->GenFramebuffers(1, &g.framebuffer);
+    gl->GenRenderbuffers(2, g.buffers);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, g.framebuffer);
+    for (int k = 0; k < 2; ++k) {
+        gl->BindRenderbuffer(GL_RENDERBUFFER, g.buffers[k]);
+        gl->RenderbufferStorage(GL_RENDERBUFFER, FORMAT[k], SIDE, SIDE);
+        gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, PLACE[k], GL_RENDERBUFFER, g.buffers[k]);
+    }
+    return g;
+}
+
+static void close_guest(guest *g) {
+    const srp_gl_functions *gl = &g->context->gl;
+    srp_renderer_destroy(g->renderer);
+    gl->DeleteFramebuffers(1, &g->framebuffer);
+    gl->DeleteRenderbuffers(2, g->buffers);
+    srp_gl_context_leave(g->context);
+    srp_gl_context_destroy(g->context);
+}
+
+static void draw_as_guest(guest *g, const srp_render_view *view, uint8_t *pixels) {
+    srp_error error;
+    assert_ok(srp_renderer_draw(g->renderer, view, &error), error);
+    g->context->gl.ReadPixels(0, 0, SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+}
+
 /* Framebuffers that were bound stay bound, whatever state it meets changes nothing, and the same
  * view is the same picture. */
 START_TEST(a_renderer_is_a_good_guest) {
     srp_error error;
-    srp_gl_context *context = NULL;
-    srp_renderer *renderer = NULL, *before = NULL;
-    assert_ok(srp_gl_context_create(srp_gl_device_find(gl_device_name), &context, &error), error);
-    assert_ok(srp_gl_context_enter(context, &error), error);
-    const srp_gl_functions *gl = &context->gl;
-    ck_assert_int_eq(srp_renderer_create(find_nothing, context, &renderer, &error), SRP_NO_DEVICE);
+    srp_renderer *none = NULL;
+    guest g = open_guest();
+    srp_renderer *renderer = g.renderer;
+    const srp_gl_functions *gl = &g.context->gl;
+    ck_assert_int_eq(srp_renderer_create(find_nothing, g.context, &none, &error), SRP_NO_DEVICE);
     ck_assert(strstr(error.message, "glBlitFramebuffer") != NULL);
-    ck_assert_ptr_eq(renderer, before);
-    assert_ok(srp_renderer_create(find_in, context, &renderer, &error), error);
+    ck_assert_ptr_null(none);
     srp_scene *scene =
         shape_scene(shape_box(srp_vec3_make(-1, -1, -1), srp_vec3_make(1, 1, 1), "a"), OPTICS);
     double ones[12];
     srp_render_view view = red_view(scene, 31.0, 17.0, srp_vec3_make(0.6, 0.48, 0.64), ones);
     uint8_t *first = malloc(4 * SIDE * SIDE), *second = malloc(4 * SIDE * SIDE);
-    GLuint target = 0, buffers[2];
-    gl->GenFramebuffers(1, &target);
-    gl->GenRenderbuffers(2, buffers);
-    gl->BindFramebuffer(GL_FRAMEBUFFER, target);
-    gl->BindRenderbuffer(GL_RENDERBUFFER, buffers[0]);
-    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, SIDE, SIDE);
-    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
-    gl->BindRenderbuffer(GL_RENDERBUFFER, buffers[1]);
-    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, SIDE, SIDE);
-    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
     /* Nothing to draw is a picture, too. */
     assert_ok(srp_renderer_draw(renderer, &view, &error), error);
     assert_ok(srp_renderer_set_scene(renderer, scene, &error), error);
@@ -388,9 +417,9 @@ START_TEST(a_renderer_is_a_good_guest) {
     assert_ok(srp_renderer_draw(renderer, &view, &error), error);
     GLint bound = -1;
     gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
-    ck_assert_int_eq(bound, (int)target);
+    ck_assert_int_eq(bound, (int)g.framebuffer);
     gl->GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
-    ck_assert_int_eq(bound, (int)target);
+    ck_assert_int_eq(bound, (int)g.framebuffer);
     gl->ReadPixels(0, 0, SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, second);
     size_t other = 0;
     for (size_t k = 0; k < 4 * SIDE * SIDE; ++k) {
@@ -399,15 +428,116 @@ START_TEST(a_renderer_is_a_good_guest) {
     ck_assert_uint_gt(other, 0);
     ck_assert_uint_lt(other, 4 * 8 * SIDE);
     ck_assert_uint_eq(gl->GetError(), GL_NO_ERROR);
-    srp_renderer_destroy(renderer);
+    close_guest(&g);
     srp_renderer_destroy(NULL);
-    gl->DeleteFramebuffers(1, &target);
-    gl->DeleteRenderbuffers(2, buffers);
-    srp_gl_context_leave(context);
-    srp_gl_context_destroy(context);
     srp_scene_destroy(scene);
     free(first);
     free(second);
+}
+END_TEST
+
+/* ---- large scenes ---- */
+
+/* Egg of 2 columns (rows - 1) triangles. */
+static srp_scene *make_egg(uint32_t rows, uint32_t columns) {
+    size_t vertices = (size_t)(rows - 1) * columns + 2, n = 2, t = 0;
+    size_t count = 2 * (size_t)columns * (rows - 1);
+    srp_vec3 *at = malloc(vertices * sizeof *at);
+    srp_triangle *of = malloc(count * sizeof *of);
+    at[0] = srp_vec3_make(0.0, 0.0, 1.3);
+    at[1] = srp_vec3_make(0.0, 0.0, -1.3);
+    for (uint32_t i = 1; i < rows; ++i) {
+        for (uint32_t k = 0; k < columns; ++k) {
+            double polar = SRP_PI * i / rows, az = 2.0 * SRP_PI * k / columns;
+            at[n++] = srp_vec3_make(sin(polar) * cos(az), sin(polar) * sin(az), 1.3 * cos(polar));
+        }
+    }
+    for (uint32_t k = 0; k < columns; ++k) {
+        uint32_t next = (k + 1) % columns, last = 2 + (rows - 2) * columns;
+        of[t++] = (srp_triangle){{0, 2 + k, 2 + next}};
+        of[t++] = (srp_triangle){{1, last + next, last + k}};
+        for (uint32_t i = 0; i + 2 < rows; ++i) {
+            uint32_t a = 2 + i * columns + k, b = 2 + i * columns + next;
+            of[t++] = (srp_triangle){{a, a + columns, b + columns}};
+            of[t++] = (srp_triangle){{a, b + columns, b}};
+        }
+    }
+    srp_mesh *mesh = shape_mesh(at, vertices, of, count, "shell");
+    free(at);
+    free(of);
+    return shape_scene(mesh, OPTICS);
+}
+
+static bool stop(void *user) {
+    (void)user;
+    return false;
+}
+/* Light that was found elsewhere gives the same picture as the renderer's own. */
+START_TEST(light_may_be_found_elsewhere) {
+    srp_error error;
+    srp_vec3 sun = srp_vec3_make(0.6, 0.48, 0.64), other = srp_vec3_make(0.48, 0.6, 0.64);
+    srp_scene *scene = make_egg(40, 60), *egg = make_egg(8, 9);
+    double *ones = malloc(srp_scene_facet_count(scene) * sizeof *ones);
+    srp_render_view view = red_view(scene, 80.0, 10.0, sun, ones);
+    uint8_t *own = malloc(4 * SIDE * SIDE), *given = malloc(4 * SIDE * SIDE);
+    srp_render_light *light = NULL, *before = NULL;
+    guest g = open_guest();
+    assert_ok(srp_renderer_set_scene(g.renderer, scene, &error), error);
+    draw_as_guest(&g, &view, own);
+    view.sun = other;
+    draw_as_guest(&g, &view, given);
+    ck_assert_int_ne(memcmp(own, given, 4 * SIDE * SIDE), 0);
+    view.sun = sun;
+    assert_ok(srp_render_light_find(scene, sun, NULL, NULL, &light, &error), error);
+    assert_ok(srp_renderer_set_light(g.renderer, light, &error), error);
+    draw_as_guest(&g, &view, given);
+    ck_assert_mem_eq(own, given, 4 * SIDE * SIDE);
+    srp_render_light_destroy(light);
+    srp_render_light_destroy(NULL);
+    light = before;
+    ck_assert_int_eq(srp_render_light_find(scene, sun, stop, NULL, &light, &error), SRP_CANCELLED);
+    ck_assert_int_eq(
+        srp_render_light_find(scene, srp_vec3_make(1, 1, 0), NULL, NULL, &light, &error),
+        SRP_BAD_ARGUMENT);
+    ck_assert_ptr_eq(light, before);
+    assert_ok(srp_render_light_find(egg, sun, NULL, NULL, &light, &error), error);
+    ck_assert_int_eq(srp_renderer_set_light(g.renderer, light, &error), SRP_BAD_ARGUMENT);
+    srp_render_light_destroy(light);
+    close_guest(&g);
+    srp_scene_destroy(scene);
+    srp_scene_destroy(egg);
+    free(ones);
+    free(own);
+    free(given);
+}
+END_TEST
+
+/* A simplified picture is another one, yet alike: what is convex casts no shadow on itself. */
+START_TEST(large_scenes_are_simplified_while_they_move) {
+    srp_error error;
+    const uint32_t rows[2] = {300, 60}; /* 89700 facets, and too few */
+    for (int k = 0; k < 2; ++k) {
+        srp_scene *scene = make_egg(rows[k], 150);
+        double *ones = malloc(srp_scene_facet_count(scene) * sizeof *ones);
+        srp_render_view view = red_view(scene, 80.0, 10.0, srp_vec3_make(0.6, 0.48, 0.64), ones);
+        uint8_t *whole = malloc(4 * SIDE * SIDE), *coarse = malloc(4 * SIDE * SIDE);
+        guest g = open_guest();
+        assert_ok(srp_renderer_set_scene(g.renderer, scene, &error), error);
+        view.coarse = true;
+        draw_as_guest(&g, &view, coarse);
+        view.coarse = false;
+        draw_as_guest(&g, &view, whole);
+        close_guest(&g);
+        counts a = count(whole, SIDE * SIDE), b = count(coarse, SIDE * SIDE);
+        ck_assert_int_eq(memcmp(whole, coarse, 4 * SIDE * SIDE) == 0, k == 1);
+        assert_close((double)b.background, (double)a.background, 0.02, 0.0);
+        assert_close((double)b.lit, (double)a.lit, 0.03, 0.0);
+        assert_close((double)b.dark, (double)a.dark, 0.05, 0.0);
+        srp_scene_destroy(scene);
+        free(ones);
+        free(whole);
+        free(coarse);
+    }
 }
 END_TEST
 
@@ -466,6 +596,8 @@ static Suite *make_suite(bool is_long) {
     tcase_add_test(tcase, points_are_drawn_where_they_are_projected);
     tcase_add_test(tcase, cameras_fit);
     tcase_add_test(tcase, a_renderer_is_a_good_guest);
+    tcase_add_test(tcase, light_may_be_found_elsewhere);
+    tcase_add_test(tcase, large_scenes_are_simplified_while_they_move);
     tcase_add_test(tcase, what_cannot_be_drawn_is_refused);
     suite_add_tcase(suite, tcase);
     return suite;

@@ -26,7 +26,7 @@ start_display() {
         exit 77
     fi
     mkfifo "$scratch/number"
-    "$XVFB" -displayfd 3 -screen 0 2048x1280x24 -nolisten tcp 3> "$scratch/number" 2> "$scratch/xvfb.log" &
+    "$XVFB" -displayfd 3 -screen 0 2560x1600x24 -nolisten tcp 3> "$scratch/number" 2> "$scratch/xvfb.log" &
     xvfb_pid=$!
     if ! read -r -t 30 number < "$scratch/number"; then
         echo "skipped: Xvfb does not start: $(tail -1 "$scratch/xvfb.log")"

@@ -172,6 +172,42 @@ began=$SECONDS
 view 0 --actions "$scratch/steps" "$ROOT/models/dish.obj"
 [ $((SECONDS - began)) -lt 120 ] || fail 'closing took too long'
 
+# A large spacecraft is simplified while it moves, and whole again when it stands: shadows and all.
+awk 'BEGIN {
+    rows = 240; columns = 150
+    for (i = 0; i <= rows; ++i)
+        for (k = 0; k < columns; ++k) {
+            t = 0.05 + 3.0 * i / rows; p = 6.283185307179586 * k / columns; r = 1 + 0.2 * sin(7 * p) * sin(5 * t)
+            printf "v %.6f %.6f %.6f\n", r * sin(t) * cos(p), r * sin(t) * sin(p), r * cos(t)
+        }
+    for (i = 0; i < rows; ++i)
+        for (k = 0; k < columns; ++k) {
+            a = i * columns + k + 1; b = i * columns + (k + 1) % columns + 1
+            printf "f %d %d %d\nf %d %d %d\n", a, a + columns, b + columns, a, b + columns, b
+        }
+}' > "$scratch/large.obj"
+cat > "$scratch/steps" << END
+resize 1280 800
+wait
+material =0.3,0.2
+wait
+expect model-facts 72000 triangles
+camera -40,24,1
+screenshot $SHOTS/large-1.png
+shadows
+screenshot $SHOTS/large-2.png
+shadows
+camera 30,10,1
+pause 0.05
+camera -40,24,1
+screenshot $SHOTS/large-3.png
+stall
+END
+view 0 --actions "$scratch/steps" "$scratch/large.obj"
+grep -q '^stall: [0-9]* ms$' "$scratch/out" || fail 'does not say for how long it was deaf'
+cmp -s "$SHOTS/large-1.png" "$SHOTS/large-3.png" || fail 'the large spacecraft is not whole again'
+! cmp -s "$SHOTS/large-1.png" "$SHOTS/large-2.png" || fail 'the large spacecraft casts no shadow'
+
 # Without OpenGL there is no picture, and all the rest.
 cat > "$scratch/steps" << END
 wait

@@ -124,7 +124,13 @@ typedef struct srp_render_view {
     double sun_line; /* [m] length of the yellow line from the target to the Sun; 0: none */
     const srp_render_arrow *arrows;
     size_t arrow_count;
+    /* For a picture that follows a hand: a scene of more than SRP_RENDER_COARSE_FACETS is drawn
+     * simplified, without edges; with `shadows`, what turns away from the Sun is dark, but nothing
+     * casts a shadow. Smaller scenes are drawn as ever. */
+    bool coarse;
 } srp_render_view;
+
+enum { SRP_RENDER_COARSE_FACETS = 60000 };
 
 /* 0 x 0 pixels, 4 samples, Sun along x, shadows, edges, colours of materials, values 0 to 1, white
  * background, neither axes nor Sun line nor arrows. */
@@ -161,6 +167,25 @@ SRP_API void srp_renderer_destroy(srp_renderer *renderer);
  * NULL: nothing. On failure the renderer keeps what it had.
  * SRP_UNSUPPORTED (not a mesh), SRP_NO_MEMORY, SRP_NO_DEVICE. */
 SRP_API SRP_CHECK srp_status srp_renderer_set_scene(srp_renderer *renderer, const srp_scene *scene,
+                                                    srp_error *error);
+
+/*
+ * Where the light falls, found beforehand and on any thread: about a second for a million facets.
+ * The scene must stay. Set, it serves all views with shadows whose Sun is exactly `sun`.
+ *   go_on  asked now and then from the thread of the call; false ends it: SRP_CANCELLED. NULL: to
+ *          the end.
+ * SRP_UNSUPPORTED (not a mesh), SRP_BAD_ARGUMENT (not a unit vector), SRP_NO_MEMORY.
+ */
+typedef struct srp_render_light srp_render_light;
+SRP_API SRP_CHECK srp_status srp_render_light_find(const srp_scene *scene, srp_vec3 sun,
+                                                   bool (*go_on)(void *user), void *user,
+                                                   srp_render_light **out, srp_error *error);
+/* May be NULL. */
+SRP_API void srp_render_light_destroy(srp_render_light *light);
+/* Copies it. The context is current. SRP_BAD_ARGUMENT (of another scene), SRP_NO_MEMORY,
+ * SRP_NO_DEVICE. */
+SRP_API SRP_CHECK srp_status srp_renderer_set_light(srp_renderer *renderer,
+                                                    const srp_render_light *light,
                                                     srp_error *error);
 
 /* Draws a picture. Where the light falls is found anew only when the Sun has moved since the last

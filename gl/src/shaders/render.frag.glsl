@@ -12,7 +12,7 @@ const uint IS_COLOUR = 0x80000000u;
 
 uniform vec4 eye;   // unit vector to the eye
 uniform vec4 sun;   // unit vector to the Sun
-uniform float lit;  // 1: sunlight falls on it
+uniform float lit;  // 1: sunlight falls on it; 2: where the side that is seen is the Sun's
 uniform float data; // 1: colours stand for values, and lit ones are kept as they are
 uniform float opacity;
 
@@ -25,6 +25,10 @@ vec3 own_colour() {
     return texelFetch(colours, ivec2(painted % ROW, painted / ROW), 0).rgb;
 }
 
+bool is_lit() {
+    return lit > 1.5 ? dot(across, sun.xyz) * dot(across, eye.xyz) > 0.0 : lit > 0.5;
+}
+
 void main() {
     vec3 own = own_colour();
     float seen = abs(dot(across, eye.xyz));
@@ -32,7 +36,7 @@ void main() {
         colour = vec4(own, opacity);
     } else if ((painted & IS_COLOUR) != 0u) {
         colour = vec4(own * (0.65 + 0.35 * seen), opacity);
-    } else if (lit > 0.5) {
+    } else if (is_lit()) {
         float shade = 0.55 + 0.45 * abs(dot(across, sun.xyz));
         colour = vec4(own * mix(shade, 1.0, data), opacity);
     } else {
