@@ -166,7 +166,7 @@ wrong 'operand 2 is empty, expected the name of a file' info "$cube" ''
 wrong 'operand 2 is empty' convert a.nc ''
 
 # Info.
-wrong 'no model given' info
+wrong 'nothing given: MODEL.obj, --plates FILE or a table' info
 wrong 'stands alone' info --plates "$MODELS/cube.plates" "$cube"
 wrong 'stands alone' info --plates "$MODELS/cube.plates" --unit mm
 
