@@ -2,10 +2,12 @@
 /* srp info: what a model is like, before it is computed with. */
 #include "commands.h"
 #include "info.h"
+#include "info_table.h"
 #include "json.h"
 #include "messages.h"
 
 #include <srp/plates.h>
+#include <srp/table.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -217,7 +219,14 @@ static int show(const info_options *options, const cli_model_options *model,
         return show_plates(model->plates, options->json);
     }
     if (operands->count == 0) {
-        return cli_usage_error("no model given: MODEL.obj or --plates FILE");
+        return cli_usage_error("nothing given: MODEL.obj, --plates FILE or a table");
+    }
+    if (srp_table_format_of(operands->items[0]) != NULL) {
+        if (operands->count > 1 || model->given != 0) {
+            return cli_usage_error("%s is a table and stands alone, without options of a model",
+                                   operands->items[0]);
+        }
+        return cli_info_table(operands->items[0], options->json);
     }
     cli_info info;
     int status = cli_info_collect(model, operands, &info);
@@ -243,16 +252,21 @@ static int run(const cli_command *command, int argc, char **argv) {
 
 const cli_command cli_command_info = {
     .name = "info",
-    .operands = "MODEL.obj...",
-    .operand_files = "obj",
-    .summary = "what a model is like: sizes, areas, optics, faults",
+    .operands = "MODEL.obj... | TABLE",
+    .operand_files = "obj nc spo txt",
+    .summary = "what a model or a table is like: sizes, areas, optics, faults",
     .description =
         "Reports on a mesh before it is computed with: sizes and a guess at the unit, area and "
         "optics of each material and where they came from, and what a user should know about: "
         "holes, duplicate, degenerate and back-to-back faces, inconsistent winding, missing MTL "
         "files and materials. Several OBJ files are joined. A missing MTL file is a finding, not "
-        "an error.",
+        "an error.\n\n"
+        "Of a table, told by its ending, it reports where it came from and what it holds: grid, "
+        "method, mass, sunlight, the smallest, mean and largest force, moment and standard error "
+        "with their directions, errors of interpolation if they were checked, materials, and what "
+        "is odd about its numbers.",
     .examples = "srp info box-wing.obj\n"
+                "srp info box-wing.nc\n"
                 "srp info bus.obj antenna.obj --unit mm --json\n"
                 "srp info --plates box-wing.plates",
     .groups = GROUPS,

@@ -236,6 +236,11 @@ static int draw(const picture_options *options, const cli_operands *operands,
     }
     portrait.title = options->title != NULL ? options->title : title;
     int status = cli_portrait_write(&portrait, options->output);
+    if (status == CLI_DONE) {
+        char text[2][CLI_PORTRAIT_WORDS];
+        cli_portrait_words(&portrait, text);
+        printf("%s\n%s\n%s\n", options->output, text[0], text[1]);
+    }
     free(title);
     return status;
 }
@@ -255,9 +260,6 @@ static int picture(picture_options *options, const cli_model_options *model_opti
     options->device = options->device != NULL ? cli_device_of(options->device) : NULL;
     status = draw(options, operands, &model);
     cli_model_release(&model);
-    if (status == CLI_DONE) {
-        printf("%s\n", options->output);
-    }
     return status;
 }
 
@@ -282,7 +284,8 @@ const cli_command cli_command_picture = {
     .description =
         "Draws the spacecraft twice: as the Sun sees it, and from a side. What the Sun does not "
         "reach is dark, with the edges of shadows where the exact method finds them. Arrows show "
-        "the body axes, the sunlight and the force of direct light, which is also written below: "
+        "the body axes, the sunlight and the force of direct light, which is also written below "
+        "and printed: "
         "the area vector f [m^2], and the force at 1 au from the Sun. What a surface hides of an "
         "arrow shines through.\n\n"
         "With --light incidence or --light force the sunlit surface is coloured by its share of "

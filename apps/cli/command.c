@@ -142,6 +142,23 @@ static void explain(const parser *p, int code, const char *word) {
     explain_unknown(p, word);
 }
 
+/* The later of two values would win without a word. A flag given twice means nothing else than
+ * once, and lists are there to be added to. */
+static bool is_repeated(const parser *p, size_t k) {
+    const cli_option *option = p->option[k];
+    if (!cli_is_given(*(const cli_given *)p->target[k], (int)p->bit[k]) || option->value == NULL ||
+        option->set == cli_set_list) {
+        return false;
+    }
+    if (option->letter != 0) {
+        cli_usage_error("--%s (-%c) is given twice and takes one value", option->name,
+                        option->letter);
+    } else {
+        cli_usage_error("--%s is given twice and takes one value", option->name);
+    }
+    return true;
+}
+
 static bool read_options(parser *p, int argc, char **argv) {
     opterr = 0;
     optind = 1;
@@ -162,7 +179,7 @@ static bool read_options(parser *p, int argc, char **argv) {
             explain_unknown(p, word);
             return false;
         }
-        if (!p->option[k]->set(p->option[k], p->target[k], optarg)) {
+        if (is_repeated(p, k) || !p->option[k]->set(p->option[k], p->target[k], optarg)) {
             return false;
         }
         *(cli_given *)p->target[k] |= (cli_given)1 << p->bit[k];

@@ -111,19 +111,6 @@ static bool is_whole(const char *path, const format *kind) {
 
 /* ---- what panels share ---- */
 
-double cli_figure_step(double range, int count) {
-    double rough = range / count, power = pow(10.0, floor(log10(rough)));
-    double lead = rough / power;
-    return power * (lead < 1.5 ? 1.0 : lead < 3.5 ? 2.0 : lead < 7.5 ? 5.0 : 10.0);
-}
-
-double cli_figure_axis(cli_scale scale, double *low, double *high) {
-    double step = cli_figure_step(scale.high - scale.low, 4);
-    *low = step * floor(scale.low / step + 1e-9);
-    *high = step * ceil(scale.high / step - 1e-9);
-    return step;
-}
-
 void cli_figure_colours(cli_scale scale, double low, double high) {
     cli_palette palette;
     PLINT rgb[3][CLI_PALETTE_SIZE];
@@ -155,24 +142,6 @@ char *cli_figure_text(const char *text) {
         *to = '\0';
     }
     return masked;
-}
-
-cli_scale cli_figure_scale(const cli_picture *picture, size_t row) {
-    cli_scale scale = {INFINITY, -INFINITY, picture->is_signed[row]};
-    for (size_t c = 0; c < picture->columns; ++c) {
-        size_t nodes = srp_grid_node_count(picture->grid[c]);
-        for (size_t k = 0; k < nodes; ++k) {
-            scale.low = fmin(scale.low, picture->field[c][row].value[k]);
-            scale.high = fmax(scale.high, picture->field[c][row].value[k]);
-        }
-    }
-    double size = fmax(fabs(scale.low), fabs(scale.high));
-    if (!(scale.high - scale.low > 1e-9 * size)) { /* one value: its surroundings */
-        double room = size > 0.0 ? 0.1 * size : 1.0;
-        scale.low -= room;
-        scale.high += room;
-    }
-    return scale;
 }
 
 /* ---- the page ---- */

@@ -4,6 +4,7 @@
 #define SRP_CLI_FIGURE_DRAW_H
 
 #include "figure.h"
+#include "figure_scale.h"
 #include "palette.h"
 
 #include <plplot/plplot.h>
@@ -16,12 +17,6 @@ typedef struct cli_panel {
     double left, right, bottom, top;
 } cli_panel;
 
-/* Least and largest value of a row over all columns, widened where they are one. */
-typedef struct cli_scale {
-    double low, high;
-    bool is_signed;
-} cli_scale;
-
 /* How surfaces are drawn. */
 typedef struct cli_look {
     double view[2]; /* azimuth and elevation of the eye [deg] */
@@ -29,13 +24,6 @@ typedef struct cli_look {
         steps_max; /* facets along an angle; of finer tables every second node, or third, ... */
 } cli_look;
 
-/* Space between marks on an axis that gives about `count` of them: 1, 2 or 5 times a power of 10.
- */
-double cli_figure_step(double range, int count);
-/* What a row's values span over all columns. */
-cli_scale cli_figure_scale(const cli_picture *picture, size_t row);
-/* The ends of an axis for it, which begins and ends at marks; returns the space between them. */
-double cli_figure_axis(cli_scale scale, double *low, double *high);
 /* The plane that the box of a surface is drawn on, seen like this (figure_surface.c). */
 void cli_figure_window(const double view[2], double *left, double *right, double *bottom,
                        double *top);

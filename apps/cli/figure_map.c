@@ -1,40 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A field as a flat map with contours. */
 #include "figure_draw.h"
+#include "map_labels.h"
 
 #include <srp/const.h>
 
 #include <math.h>
 
 enum { LINES = 8 };
-
-/* theta of Mollweide's projection: 2 theta + sin 2 theta = pi sin el (Snyder, Map Projections,
- * 1987, eq. 31-3), by bisection and Newton steps. */
-static double mollweide_angle(double el) {
-    double want = SRP_PI * sin(el), theta = el;
-    if (fabs(el) > 0.5 * SRP_PI - 1e-12) {
-        return el;
-    }
-    double low = -0.5 * SRP_PI, high = 0.5 * SRP_PI;
-    for (int k = 0; k < 60; ++k) {
-        double off = 2.0 * theta + sin(2.0 * theta) - want;
-        *(off > 0.0 ? &high : &low) = theta;
-        double slope = 2.0 + 2.0 * cos(2.0 * theta), next = theta - off / slope;
-        theta = next > low && next < high ? next : 0.5 * (low + high);
-    }
-    return theta;
-}
-
-/* Where a direction is on the map: degrees, or for Mollweide's an ellipse of the same size. */
-static void place(double az_deg, double el_deg, bool mollweide, double *x, double *y) {
-    *x = az_deg;
-    *y = el_deg;
-    if (mollweide) {
-        double theta = mollweide_angle(el_deg * SRP_RAD_PER_DEG);
-        *x = az_deg * cos(theta);
-        *y = 90.0 * sin(theta);
-    }
-}
 
 typedef struct map {
     PLINT nx, ny;
@@ -48,7 +21,8 @@ static void map_free(map *m) {
     plFree2dGrid(m->at.yg, m->nx, m->ny);
 }
 
-static void map_make(map *m, srp_grid grid, const double *value, bool mollweide) {
+static void map_make(map *m, srp_grid grid, const double *value, cli_scale scale, bool mollweide) {
+    double dust = 1e-12 * (scale.high - scale.low); /* would draw contours of 0 over the dark */
     m->nx = (PLINT)grid.az_count;
     m->ny = (PLINT)grid.el_count;
     m->at.nx = m->nx;
@@ -58,10 +32,11 @@ static void map_make(map *m, srp_grid grid, const double *value, bool mollweide)
     plAlloc2dGrid(&m->at.yg, m->nx, m->ny);
     for (PLINT i = 0; i < m->nx; ++i) {
         for (PLINT j = 0; j < m->ny; ++j) {
-            m->z[i][j] = value[(size_t)i * grid.el_count + (size_t)j];
-            place(srp_grid_azimuth_deg(grid, (uint32_t)i),
-                  srp_grid_elevation_deg(grid, (uint32_t)j), mollweide, &m->at.xg[i][j],
-                  &m->at.yg[i][j]);
+            double z = value[(size_t)i * grid.el_count + (size_t)j];
+            m->z[i][j] = fabs(z) > dust ? z : 0.0;
+            cli_map_place(srp_grid_azimuth_deg(grid, (uint32_t)i),
+                          srp_grid_elevation_deg(grid, (uint32_t)j), mollweide, &m->at.xg[i][j],
+                          &m->at.yg[i][j]);
         }
     }
 }
@@ -72,7 +47,8 @@ static void draw_line(double from, double to, double fixed, bool meridian, bool 
     PLFLT x[POINTS], y[POINTS];
     for (int k = 0; k < POINTS; ++k) {
         double moving = from + (to - from) * k / (POINTS - 1);
-        place(meridian ? fixed : moving, meridian ? moving : fixed, mollweide, &x[k], &y[k]);
+        cli_map_place(meridian ? fixed : moving, meridian ? moving : fixed, mollweide, &x[k],
+                      &y[k]);
     }
     plline(POINTS, x, y);
 }
@@ -100,14 +76,14 @@ static void label_ellipse(void) {
     }
     for (int el = -45; el <= 45; el += 90) {
         double x, y;
-        place(-180.0, el, true, &x, &y);
+        cli_map_place(-180.0, el, true, &x, &y);
         snprintf(text, sizeof text, "%d", el);
         plptex(x - 5.0, y, 1.0, 0.0, 1.0, text);
     }
     plschr(0.0, 1.0);
 }
 
-static void draw_frame(const char *name, bool mollweide) {
+static void draw_frame(const char *name, cli_scale scale, bool mollweide) {
     plcol0(INK_GREY);
     plwidth(0.5);
     for (int az = -90; az <= 90; az += 90) {
@@ -127,39 +103,10 @@ static void draw_frame(const char *name, bool mollweide) {
         plmtex("b", 3.0, 0.5, 0.5, "az [deg]");
         plmtex("l", 3.6, 0.5, 0.5, "el [deg]");
     }
-    plmtex("t", 1.5, 0.5, 0.5, name);
-}
-
-/* Does the field go up and down from node to node over a good part of a step of contours? */
-static bool is_restless(const map *m, cli_scale scale) {
-    double step = cli_figure_step(scale.high - scale.low, LINES), bends = 0.0;
-    for (PLINT j = 1; j + 1 < m->ny; ++j) {
-        for (PLINT i = 1; i + 1 < m->nx; ++i) {
-            double before = m->z[i][j] - m->z[i - 1][j], after = m->z[i + 1][j] - m->z[i][j];
-            bends += before * after < 0.0 && fmin(fabs(before), fabs(after)) > 0.02 * step;
-        }
-    }
-    return bends > 0.1 * (double)(m->nx - 2) * (double)(m->ny - 2);
-}
-
-static void draw_contours(const map *m, cli_scale scale) {
-    PLFLT level[4 * LINES];
-    double step = cli_figure_step(scale.high - scale.low, LINES);
-    PLINT count = 0;
-    /* By whole numbers of steps: sums of them would miss 0 by rounding, and be labelled so. */
-    for (double k = ceil(scale.low / step); k * step <= scale.high && count < 4 * LINES; ++k) {
-        level[count++] = k == 0.0 ? 0.0 : k * step;
-    }
-    plcol0(INK_BLACK);
-    plwidth(0.6);
-    pl_setcontlabelformat(4, 3);
-    /* A contour that is as restless as noise is a tangle with labels: without. */
-    bool tangle = is_restless(m, scale);
-    pl_setcontlabelparam(0.008, 0.6, 0.1, !tangle);
-    plwidth(tangle ? 0.2 : 0.6);
-    plcont((PLFLT_MATRIX)m->z, m->nx, m->ny, 1, m->nx, 1, m->ny, level, count, pltr2,
-           (PLPointer)&m->at);
-    plwidth(1.0);
+    char words[CLI_FLAT_SIZE], title[256];
+    cli_figure_flat_words(scale, words);
+    snprintf(title, sizeof title, "%s%s%s", name, scale.is_flat ? ": " : "", words);
+    plmtex("t", 1.5, 0.5, 0.5, title);
 }
 
 /* The value between nodes, by lines along both angles. */
@@ -169,6 +116,59 @@ static double value_at(const map *m, double az_deg, double el_deg) {
     double t = i - i0, u = j - j0;
     return (1.0 - u) * ((1.0 - t) * m->z[i0][j0] + t * m->z[i0 + 1][j0]) +
            u * ((1.0 - t) * m->z[i0][j0 + 1] + t * m->z[i0 + 1][j0 + 1]);
+}
+
+/* Does the field go up and down along parallels, by a good part of a step of contours, more often
+ * than the shape of a spacecraft makes it? */
+static bool is_restless(const map *m, double step) {
+    const double of_shapes = 6.0;
+    double bends = 0.0;
+    for (PLINT j = 1; j + 1 < m->ny; ++j) {
+        for (PLINT i = 1; i + 1 < m->nx; ++i) {
+            double before = m->z[i][j] - m->z[i - 1][j], after = m->z[i + 1][j] - m->z[i][j];
+            bends += before * after < 0.0 && fmin(fabs(before), fabs(after)) > 0.02 * step;
+        }
+    }
+    return bends > fmax(of_shapes, 0.1 * (double)(m->nx - 2)) * (double)(m->ny - 2);
+}
+
+static double value_of(const void *field, double az_deg, double el_deg) {
+    return value_at(field, az_deg, el_deg);
+}
+
+static void label_contours(const map *m, const double *level, int count, double step,
+                           bool mollweide) {
+    cli_map_labels labels;
+    const cli_map_field field = {value_of, m, mollweide};
+    cli_map_label_contours(&field, level, count, step, &labels);
+    plschr(0.0, CLI_MAP_LABEL_SIZE);
+    for (int k = 0; k < labels.count; ++k) {
+        put_halo(labels.at[k].x, labels.at[k].y, labels.at[k].text);
+    }
+    plschr(0.0, 1.0);
+}
+
+static void draw_contours(const map *m, cli_scale scale, bool mollweide) {
+    double level[4 * LINES], step = cli_figure_step(scale.high - scale.low, LINES);
+    int count = 0;
+    /* By whole numbers of steps: sums of them would miss 0 by rounding, and be labelled so. */
+    double bit =
+        1e-9 * (scale.high - scale.low); /* nothing lies beyond the least and the largest */
+    for (double k = ceil((scale.low + bit) / step);
+         k * step < scale.high - bit && count < 4 * LINES; ++k) {
+        level[count++] = k == 0.0 ? 0.0 : k * step;
+    }
+    /* A contour that is as restless as noise is a tangle with labels: without. */
+    bool tangle = is_restless(m, step);
+    plcol0(INK_BLACK);
+    pl_setcontlabelparam(0.008, 0.6, 0.1, 0);
+    plwidth(tangle ? 0.2 : 0.6);
+    plcont((PLFLT_MATRIX)m->z, m->nx, m->ny, 1, m->nx, 1, m->ny, level, count, pltr2,
+           (PLPointer)&m->at);
+    plwidth(1.0);
+    if (!tangle) {
+        label_contours(m, level, count, step, mollweide);
+    }
 }
 
 static int level_of(double value, cli_scale scale, int levels) {
@@ -183,7 +183,7 @@ typedef struct parallel {
 
 static parallel parallel_at(double el_deg, bool mollweide) {
     parallel p;
-    place(1.0, el_deg, mollweide, &p.shrink, &p.y);
+    cli_map_place(1.0, el_deg, mollweide, &p.shrink, &p.y);
     return p;
 }
 
@@ -221,13 +221,15 @@ static void shade(const map *m, cli_scale scale, int rows, int levels, bool moll
 bool cli_figure_map(const cli_panel *panel, const cli_picture *picture, size_t column, size_t row,
                     cli_scale scale, int rows, int levels, bool mollweide) {
     map m;
-    map_make(&m, picture->grid[column], picture->field[column][row].value, mollweide);
+    map_make(&m, picture->grid[column], picture->field[column][row].value, scale, mollweide);
     cli_figure_colours(scale, scale.low, scale.high);
     plvpor(panel->left, panel->right, panel->bottom, panel->top);
     plwind(-180.0, 180.0, -90.0, 90.0);
     shade(&m, scale, rows, levels, mollweide);
-    draw_contours(&m, scale);
-    draw_frame(picture->name[row], mollweide);
+    if (!scale.is_flat) {
+        draw_contours(&m, scale, mollweide);
+    }
+    draw_frame(picture->name[row], scale, mollweide);
     map_free(&m);
     return true;
 }

@@ -2,6 +2,7 @@
 /* A picture from views to file. */
 #include "picture.h"
 
+#include "figure_scale.h"
 #include "messages.h"
 #include "numbers.h"
 #include "picture_page.h"
@@ -140,7 +141,7 @@ static srp_render_camera frame(const cli_page *page, const cli_panel_view *panel
 
 /* ---- values ---- */
 
-/* The largest value, rounded up to a tenth. */
+/* The largest value, rounded up to a mark of the scale. */
 static int find_range(const cli_portrait *portrait, srp_vec3 sun, double *high) {
     size_t count = srp_scene_facet_count(portrait->scene);
     *high = 1.0;
@@ -157,7 +158,9 @@ static int find_range(const cli_portrait *portrait, srp_vec3 sun, double *high) 
         most = fmax(most, value[k]);
     }
     free(value);
-    *high = fmax(ceil(10.0 * most - 1e-9) / 10.0, 0.1);
+    most = fmax(most, 0.01);
+    double step = cli_figure_step(most, 5);
+    *high = step * ceil(most / step - 1e-9);
     return CLI_DONE;
 }
 
@@ -183,10 +186,14 @@ static int set_up(const cli_portrait *portrait, studio *s) {
     page->portrait = portrait;
     cli_page_lay_out(page);
     char number[2][CLI_NUMBER_SIZE];
+    cli_write_number(portrait->side[0], number[0]);
+    cli_write_number(portrait->side[1], number[1]);
     snprintf(page->panel[0].caption, sizeof page->panel[0].caption, "as the Sun sees it");
+    snprintf(page->panel[0].brief, sizeof page->panel[0].brief, "from the Sun");
     snprintf(page->panel[1].caption, sizeof page->panel[1].caption,
-             "from azimuth %s°, elevation %s°", cli_write_number(portrait->side[0], number[0]),
-             cli_write_number(portrait->side[1], number[1]));
+             "from azimuth %s°, elevation %s°", number[0], number[1]);
+    snprintf(page->panel[1].brief, sizeof page->panel[1].brief, "from az %s°, el %s°", number[0],
+             number[1]);
     cli_palette_sequential(&page->palette);
     for (int k = 0; k < CLI_PALETTE_SIZE; ++k) {
         const double *c = page->palette.rgb[k];

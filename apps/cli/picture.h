@@ -23,6 +23,10 @@ typedef struct cli_portrait {
     const char *device;     /* NULL: the first that works */
 } cli_portrait;
 
+/* Its numbers, in two lines: the area vector of direct light; force and lit area. */
+enum { CLI_PORTRAIT_WORDS = 160 };
+void cli_portrait_words(const cli_portrait *portrait, char text[2][CLI_PORTRAIT_WORDS]);
+
 /* Can this build draw pictures? An exit status, said if not CLI_DONE. */
 int cli_portrait_check(void);
 /* Draws it into a file .png, which appears whole or not at all. An exit status, said if not

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "picture_page.h"
 
+#include "figure_scale.h"
+
 #include <math.h>
 #include <pango/pangocairo.h>
 #include <stdio.h>
@@ -11,6 +13,8 @@ enum { TITLE = 26, WORDS = 17, EDGE = 16, TITLE_ROW = 54, CAPTION_ROW = 32, LEGE
 enum { LEGEND_ROWS = 3, WORD_MIN_PX = 10 };
 
 static const srp_render_colour INK = {0.10F, 0.10F, 0.10F}, PALE = {0.42F, 0.42F, 0.42F};
+/* Of faces without sunlight, beside materials and beside values (shaders/render.frag.glsl). */
+static const srp_render_colour DARK = {0.15F, 0.14F, 0.13F}, DARK_GREY = {0.36F, 0.36F, 0.36F};
 
 /* Lines that the numbers below the legend take. */
 static int number_rows(const cli_page *page) {
@@ -46,6 +50,7 @@ void cli_page_lay_out(cli_page *page) {
 
 typedef struct words {
     const char *text;
+    const char *brief;  /* in its place where there is no room for it in full; NULL: none */
     double x, y, width; /* the box: from x, about the middle y; longer text is cut there */
     double size;        /* [px] */
     PangoAlignment align;
@@ -57,7 +62,7 @@ typedef struct words {
 static const double SMALLEST = 0.72;
 
 /* One line of `size` [px]; for g_object_unref(). */
-static PangoLayout *line_of(cairo_t *to, const words *w, double size) {
+static PangoLayout *line_of(cairo_t *to, const words *w, const char *text, double size) {
     PangoLayout *layout = pango_cairo_create_layout(to);
     PangoFontDescription *font = pango_font_description_from_string("DejaVu Sans, sans-serif");
     pango_font_description_set_absolute_size(font, size * PANGO_SCALE);
@@ -66,17 +71,24 @@ static PangoLayout *line_of(cairo_t *to, const words *w, double size) {
     pango_layout_set_font_description(layout, font);
     pango_font_description_free(font);
     pango_layout_set_single_paragraph_mode(layout, TRUE);
-    pango_layout_set_text(layout, w->text, -1);
+    pango_layout_set_text(layout, text, -1);
     return layout;
 }
 
 static void put(cairo_t *to, const words *w) {
     int width, height;
-    PangoLayout *layout = line_of(to, w, w->size);
+    const char *text = w->text;
+    PangoLayout *layout = line_of(to, w, text, w->size);
     pango_layout_get_pixel_size(layout, &width, &height);
-    if (w->width > 0.0 && width > w->width) {
+    if (width > w->width && w->width > 0.0 && w->brief != NULL) {
         g_object_unref(layout);
-        layout = line_of(to, w, w->size * fmax(0.98 * w->width / width, SMALLEST));
+        text = w->brief;
+        layout = line_of(to, w, text, w->size);
+        pango_layout_get_pixel_size(layout, &width, &height);
+    }
+    if (width > w->width && w->width > 0.0) {
+        g_object_unref(layout);
+        layout = line_of(to, w, text, w->size * fmax(0.98 * w->width / width, SMALLEST));
     }
     if (w->width > 0.0) {
         pango_layout_set_width(layout, (int)(w->width * PANGO_SCALE));
@@ -125,6 +137,7 @@ static void put_mark(const cli_page *page, const cli_panel_view *panel, const cl
 
 static void draw_panel(const cli_page *page, const cli_panel_view *panel, cairo_t *to) {
     words caption = {.text = panel->caption,
+                     .brief = panel->brief,
                      .x = panel->x,
                      .y = panel->y - 0.5 * CAPTION_ROW * page->unit,
                      .width = panel->width,
@@ -158,39 +171,60 @@ static void put_swatch(const cli_page *page, cairo_t *to, double x, double y,
     cairo_stroke(to);
 }
 
-/* Materials in columns, as many as there is room for. */
+/* What has no sunlight, in any picture. */
+static void put_dark(const cli_page *page, cairo_t *to, double x, double y, const char *text,
+                     srp_render_colour colour) {
+    words w = {.text = text,
+               .brief = "in the dark",
+               .x = x + 1.5 * WORDS * page->unit,
+               .y = y,
+               .size = 0.9 * WORDS * page->unit,
+               .colour = INK};
+    w.width = page->portrait->width - w.x - EDGE * page->unit;
+    put_swatch(page, to, x, y, colour);
+    put(to, &w);
+}
+
+static void put_material(const cli_page *page, cairo_t *to, size_t k, words *w) {
+    char text[320];
+    const srp_scene *scene = page->portrait->scene;
+    srp_optics optics = srp_scene_material_optics(scene, k);
+    const char *name = srp_scene_material_name(scene, k);
+    snprintf(text, sizeof text, "%.200s: ρs %.4g, ρd %.4g%s", name[0] != '\0' ? name : "(no name)",
+             optics.rho_s, optics.rho_d, optics.one_sided ? ", one-sided" : "");
+    w->text = text;
+    put_swatch(page, to, w->x - 1.5 * WORDS * page->unit, w->y, srp_render_material_colour(k));
+    put(to, w);
+}
+
+/* Materials in columns, as many as there is room for, and what is dark. */
 static void draw_materials(const cli_page *page, cairo_t *to, double top) {
     const cli_portrait *portrait = page->portrait;
-    const srp_scene *scene = portrait->scene;
-    size_t count = srp_scene_material_count(scene);
-    size_t columns = (count + LEGEND_ROWS - 1) / LEGEND_ROWS;
+    size_t count = srp_scene_material_count(portrait->scene);
+    size_t columns = (count + 1 + LEGEND_ROWS - 1) / LEGEND_ROWS;
     size_t most = (size_t)fmax(1.0, floor(portrait->width / (330.0 * page->unit)));
     columns = columns < most ? columns : most;
     double edge = EDGE * page->unit, width = (portrait->width - 2.0 * edge) / (double)columns;
     width = fmin(width, 460.0 * page->unit);
     size_t room = columns * LEGEND_ROWS;
-    for (size_t k = 0; k < count && k < room; ++k) {
-        char text[320];
-        size_t column = k / LEGEND_ROWS;
-        double x = edge + width * (double)column;
+    for (size_t k = 0; k < count + 1 && k < room; ++k) {
+        char more[64];
+        double x = edge + width * (double)(k / LEGEND_ROWS);
         double y = top + ((double)(k % LEGEND_ROWS) + 0.5) * LEGEND_ROW * page->unit;
-        words w = {.text = text,
+        words w = {.text = more,
                    .x = x + 1.5 * WORDS * page->unit,
                    .y = y,
                    .width = width - 3.0 * WORDS * page->unit,
                    .size = 0.9 * WORDS * page->unit,
                    .colour = INK};
-        if (k + 1 == room && count > room) {
-            snprintf(text, sizeof text, "and %zu more materials", count - room + 1);
+        if (k == count || k + 1 == room) {
+            put_dark(page, to, x, y, "dark: no sunlight", DARK);
+        } else if (k + 2 == room && count + 1 > room) {
+            snprintf(more, sizeof more, "and %zu more materials", count - k);
+            put(to, &w);
         } else {
-            srp_optics optics = srp_scene_material_optics(scene, k);
-            const char *name = srp_scene_material_name(scene, k);
-            snprintf(text, sizeof text, "%.200s: ρs %.4g, ρd %.4g%s",
-                     name[0] != '\0' ? name : "(no name)", optics.rho_s, optics.rho_d,
-                     optics.one_sided ? ", one-sided" : "");
-            put_swatch(page, to, x, y, srp_render_material_colour(k));
+            put_material(page, to, k, &w);
         }
-        put(to, &w);
     }
 }
 
@@ -206,18 +240,23 @@ static void draw_scale(const cli_page *page, cairo_t *to, double top) {
                         height);
         cairo_fill(to);
     }
-    for (int k = 0; k <= 5; ++k) {
+    double step = cli_figure_step(page->value_high, 5);
+    cairo_set_source_rgb(to, 0.1, 0.1, 0.1);
+    cairo_set_line_width(to, fmax(unit, 1.0));
+    for (int k = 0; k * step <= page->value_high * (1.0 + 1e-9); ++k) {
         char number[32];
-        double room = 100.0 * unit, middle = x + width * k / 5.0;
-        snprintf(number, sizeof number, "%.3g", page->value_high * k / 5.0);
+        double room = 100.0 * unit, middle = x + width * k * step / page->value_high;
+        cairo_move_to(to, middle, y + height);
+        cairo_line_to(to, middle, y + 1.2 * height);
+        cairo_stroke(to);
+        snprintf(number, sizeof number, "%.3g", k * step);
         words w = {.text = number,
-                   .x = fmax(middle - 0.5 * room, 0.0),
-                   .y = top + 1.35 * LEGEND_ROW * unit,
+                   .x = k == 0 ? x : middle - 0.5 * room,
+                   .y = top + 1.45 * LEGEND_ROW * unit,
                    .width = room,
                    .size = 0.9 * WORDS * unit,
                    .align = k == 0 ? PANGO_ALIGN_LEFT : PANGO_ALIGN_CENTER,
                    .colour = INK};
-        w.x = k == 0 ? x : w.x;
         put(to, &w);
     }
     bool force = portrait->light == CLI_LIGHT_FORCE;
@@ -230,37 +269,20 @@ static void draw_scale(const cli_page *page, cairo_t *to, double top) {
                   .size = 0.9 * WORDS * unit,
                   .colour = INK};
     put(to, &what);
-    put_swatch(page, to, x + width + 60.0 * unit, top + 0.5 * LEGEND_ROW * unit,
-               (srp_render_colour){0.36F, 0.36F, 0.36F});
-    what.text = "not in the Sun";
-    what.x = x + width + 90.0 * unit;
-    what.y = top + 0.5 * LEGEND_ROW * unit;
-    what.width = portrait->width - what.x - x;
-    put(to, &what);
-}
-
-/* Without what is rounding beside the whole. */
-static double tidy(double value, double whole) {
-    return fabs(value) > 1e-12 * whole ? value : 0.0;
+    put_dark(page, to, x + width + 60.0 * unit, top + 0.5 * LEGEND_ROW * unit, "no sunlight",
+             DARK_GREY);
 }
 
 static void draw_numbers(const cli_page *page, cairo_t *to, double y) {
     const cli_portrait *portrait = page->portrait;
-    const srp_response *r = &portrait->response;
-    double size = srp_vec3_norm(r->f);
-    char text[2][400], force[160];
-    snprintf(text[0], sizeof text[0], "Direct light: f = (%.4g, %.4g, %.4g) m², |f| = %.4g m²",
-             tidy(r->f.x, size), tidy(r->f.y, size), tidy(r->f.z, size), size);
-    snprintf(force, sizeof force, "force at 1 au %.4g N; lit area %.4g m²",
-             portrait->pressure * size, r->lit_area);
-    snprintf(text[1], sizeof text[1], "%s", force);
+    char text[2][CLI_PORTRAIT_WORDS], line[2 * CLI_PORTRAIT_WORDS + 2];
+    cli_portrait_words(portrait, text);
     int rows = number_rows(page);
     if (rows == 1) {
-        size_t length = strlen(text[0]);
-        snprintf(text[0] + length, sizeof text[0] - length, "; %s", force);
+        snprintf(line, sizeof line, "%s; %s", text[0], text[1]);
     }
     for (int k = 0; k < rows; ++k) {
-        words w = {.text = text[k],
+        words w = {.text = rows == 1 ? line : text[k],
                    .x = EDGE * page->unit,
                    .y = y + k * LEGEND_ROW * page->unit,
                    .width = portrait->width - 2.0 * EDGE * page->unit,

@@ -22,7 +22,7 @@ typedef struct cli_mark {
 /* A part of the page [px], and what is in it. */
 typedef struct cli_panel_view {
     int x, y, width, height;
-    char caption[128];
+    char caption[128], brief[96]; /* the second where there is no room for the first */
     srp_render_camera camera;
     cli_mark marks[CLI_MARKS_MAX];
     size_t mark_count;

@@ -22,11 +22,15 @@ static const double OPPOSITE = 1e-6, TIE = 1e-5;
 
 /* ---- the algebra of one fit ---- */
 
+/* Rows are taken in by blocks of samples, at least so many: what is worked on stays in the cache,
+ * however fine the table is. */
+enum { BLOCK_MIN = 64 };
+
 typedef struct algebra {
     const cli_samples *samples;
-    size_t rows, columns;
-    gsl_matrix *x;        /* (rows + plates, columns) rows times root of weight; then its QR */
-    gsl_vector *y;        /* (rows + plates) then Q^T y */
+    size_t columns, block; /* unknowns; samples of a block */
+    gsl_matrix *x;        /* (columns + 3 block, columns) triangle of what was taken in, new rows */
+    gsl_vector *y;        /* (columns + 3 block) their right side */
     gsl_vector *tau;      /* (columns) */
     gsl_matrix *r;        /* (columns, columns) triangle: |x b - y| = |r b - z| up to a constant */
     gsl_vector *areas;    /* (columns) a, v, w of each plate */
@@ -47,12 +51,12 @@ static void algebra_free(algebra *g) {
 }
 
 static bool algebra_make(algebra *g, const cli_samples *samples, size_t count) {
-    size_t rows = 3 * samples->count, n = U * count;
+    size_t n = U * count, block = 2 * count > BLOCK_MIN ? 2 * count : BLOCK_MIN;
     *g = (algebra){samples,
-                   rows,
                    n,
-                   gsl_matrix_alloc(rows + count, n),
-                   gsl_vector_alloc(rows + count),
+                   block,
+                   gsl_matrix_alloc(n + 3 * block, n),
+                   gsl_vector_alloc(n + 3 * block),
                    gsl_vector_alloc(n),
                    gsl_matrix_calloc(n, n),
                    gsl_vector_alloc(n),
@@ -63,27 +67,45 @@ static bool algebra_make(algebra *g, const cli_samples *samples, size_t count) {
            g->spread != NULL && g->scratch != NULL && g->jacobian != NULL;
 }
 
-/* Fills x and y; rows behind those of the samples are 0. */
-static void set_rows(algebra *g, const srp_vec3 *normals) {
-    const cli_samples *samples = g->samples;
-    gsl_matrix_set_zero(g->x);
-    gsl_vector_set_zero(g->y);
-    for (size_t k = 0; k < samples->count; ++k) {
-        double root = sqrt(samples->at[k].weight);
-        gsl_matrix_view rows = gsl_matrix_submatrix(g->x, 3 * k, 0, 3, g->columns);
+/* Fills the rows behind the triangle with those of samples, times the root of the weight. */
+static void set_rows(algebra *g, const srp_vec3 *normals, size_t first, size_t count) {
+    for (size_t k = 0; k < count; ++k) {
+        const cli_direction *at = &g->samples->at[first + k];
+        srp_vec3 value = g->samples->value[first + k];
+        size_t row = g->columns + 3 * k;
+        double root = sqrt(at->weight);
+        double *const to[3] = {gsl_matrix_ptr(g->x, row, 0), gsl_matrix_ptr(g->x, row + 1, 0),
+                               gsl_matrix_ptr(g->x, row + 2, 0)};
         for (size_t p = 0; p < g->columns / U; ++p) {
             srp_vec3 column[U];
-            cli_plate_columns(normals[p], samples->at[k].s, column);
+            cli_plate_columns(normals[p], at->s, column);
             for (size_t u = 0; u < U; ++u) {
-                gsl_matrix_set(&rows.matrix, 0, U * p + u, root * column[u].x);
-                gsl_matrix_set(&rows.matrix, 1, U * p + u, root * column[u].y);
-                gsl_matrix_set(&rows.matrix, 2, U * p + u, root * column[u].z);
+                to[0][U * p + u] = root * column[u].x;
+                to[1][U * p + u] = root * column[u].y;
+                to[2][U * p + u] = root * column[u].z;
             }
         }
-        gsl_vector_set(g->y, 3 * k, root * samples->value[k].x);
-        gsl_vector_set(g->y, 3 * k + 1, root * samples->value[k].y);
-        gsl_vector_set(g->y, 3 * k + 2, root * samples->value[k].z);
+        gsl_vector_set(g->y, row, root * value.x);
+        gsl_vector_set(g->y, row + 1, root * value.y);
+        gsl_vector_set(g->y, row + 2, root * value.z);
     }
+}
+
+/* Takes `rows` rows behind the triangle into it, by Householder's reflections (Golub and Van Loan,
+ * Matrix Computations, 4th ed., section 6.5.3): as accurate as with all rows at once, which a sum
+ * of normal equations is not. False when the algebra fails. */
+static bool absorb(algebra *g, size_t rows) {
+    size_t n = g->columns;
+    gsl_matrix_view x = gsl_matrix_submatrix(g->x, 0, 0, n + rows, n);
+    gsl_vector_view y = gsl_vector_subvector(g->y, 0, n + rows);
+    if (gsl_linalg_QR_decomp(&x.matrix, g->tau) != GSL_SUCCESS ||
+        gsl_linalg_QR_QTvec(&x.matrix, g->tau, &y.vector) != GSL_SUCCESS) {
+        return false;
+    }
+    for (size_t i = 1; i < n; ++i) {
+        memset(gsl_matrix_ptr(g->x, i, 0), 0, i * sizeof(double));
+    }
+    return true;
 }
 
 /* Ratio of the extreme singular values of r, its columns made of length 1. */
@@ -117,46 +139,54 @@ static cli_fit_status check_condition(algebra *g) {
     return status;
 }
 
-static cli_fit_status triangulate(algebra *g) {
-    if (gsl_linalg_QR_decomp(g->x, g->tau) != GSL_SUCCESS ||
-        gsl_linalg_QR_QTvec(g->x, g->tau, g->y) != GSL_SUCCESS) {
-        return CLI_FIT_NOT_FINITE;
-    }
-    for (size_t i = 0; i < g->columns; ++i) {
-        for (size_t j = i; j < g->columns; ++j) {
-            gsl_matrix_set(g->r, i, j, gsl_matrix_get(g->x, i, j));
-        }
-    }
+/* What is taken in becomes r. */
+static cli_fit_status take_triangle(algebra *g) {
+    gsl_matrix_const_view top = gsl_matrix_const_submatrix(g->x, 0, 0, g->columns, g->columns);
+    gsl_matrix_memcpy(g->r, &top.matrix);
     return check_condition(g);
 }
 
-/* Asks, weakly, opposite plates to be of one area: rows at the end of x, for which there is room.
- */
-static void tie_opposites(algebra *g, const srp_vec3 *normals) {
-    size_t count = g->columns / U, row = g->rows;
+static cli_fit_status triangulate(algebra *g, const srp_vec3 *normals) {
+    gsl_matrix_set_zero(g->x);
+    gsl_vector_set_zero(g->y);
+    for (size_t k = 0, count; k < g->samples->count; k += count) {
+        size_t left = g->samples->count - k;
+        count = left < g->block ? left : g->block;
+        set_rows(g, normals, k, count);
+        if (!absorb(g, 3 * count)) {
+            return CLI_FIT_NOT_FINITE;
+        }
+    }
+    return take_triangle(g);
+}
+
+/* Asks, weakly, opposite plates to be of one area: a row for each pair. */
+static cli_fit_status tie_opposites(algebra *g, const srp_vec3 *normals) {
+    size_t count = g->columns / U, rows = 0;
     for (size_t p = 0; p < count; ++p) {
         for (size_t q = p + 1; q < count; ++q) {
             srp_vec3 apart = srp_vec3_add(normals[p], normals[q]);
-            if (srp_vec3_norm(apart) < OPPOSITE && row < g->x->size1) {
-                for (size_t u = 0; u < U; ++u) {
-                    gsl_matrix_set(g->x, row, U * p + u, TIE);
-                    gsl_matrix_set(g->x, row, U * q + u, -TIE);
-                }
-                ++row;
+            if (srp_vec3_norm(apart) >= OPPOSITE || rows == 3 * g->block) {
+                continue;
             }
+            double *row = gsl_matrix_ptr(g->x, g->columns + rows, 0);
+            memset(row, 0, g->columns * sizeof *row);
+            for (size_t u = 0; u < U; ++u) {
+                row[U * p + u] = TIE;
+                row[U * q + u] = -TIE;
+            }
+            gsl_vector_set(g->y, g->columns + rows++, 0.0);
         }
     }
+    return absorb(g, rows) ? take_triangle(g) : CLI_FIT_NOT_FINITE;
 }
 
 /* From the samples to r, z and the areas. */
 static cli_fit_status find_areas(algebra *g, const srp_vec3 *normals, bool *tied) {
-    set_rows(g, normals);
-    cli_fit_status status = triangulate(g);
+    cli_fit_status status = triangulate(g, normals);
     *tied = status == CLI_FIT_AMBIGUOUS;
     if (*tied) {
-        set_rows(g, normals);
-        tie_opposites(g, normals);
-        status = triangulate(g);
+        status = tie_opposites(g, normals);
     }
     if (status != CLI_FIT_DONE) {
         return status;
@@ -195,7 +225,7 @@ static void set_jacobian(algebra *g) {
  */
 static void add_noise(algebra *g, const srp_vec3 *normals, double *freedom) {
     const cli_samples *samples = g->samples;
-    gsl_matrix_set_zero(g->spread);
+    gsl_matrix_set_zero(g->scratch);
     *freedom = 0.0;
     for (size_t k = 0; k < samples->count; ++k) {
         double weight = samples->at[k].weight;
@@ -212,15 +242,18 @@ static void add_noise(algebra *g, const srp_vec3 *normals, double *freedom) {
             gsl_blas_dtrsv(CblasUpper, CblasTrans, CblasNonUnit, g->r, g->tau);
             gsl_blas_ddot(g->tau, g->tau, &norm);
             *freedom += weight - weight * weight * norm;
-            gsl_blas_dtrsv(CblasUpper, CblasNoTrans, CblasNonUnit, g->r, g->tau);
-            gsl_blas_dsyr(CblasLower, weight * weight, g->tau, g->spread);
+            gsl_blas_dsyr(CblasLower, weight * weight, g->tau, g->scratch);
         }
     }
     for (size_t i = 0; i < g->columns; ++i) {
         for (size_t j = 0; j < i; ++j) {
-            gsl_matrix_set(g->spread, j, i, gsl_matrix_get(g->spread, i, j));
+            gsl_matrix_set(g->scratch, j, i, gsl_matrix_get(g->scratch, i, j));
         }
     }
+    /* The second r^-1 of G^-1 = r^-1 r^-T, once for all rows. */
+    gsl_matrix_memcpy(g->spread, g->scratch);
+    gsl_blas_dtrsm(CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, 1.0, g->r, g->spread);
+    gsl_blas_dtrsm(CblasRight, CblasUpper, CblasTrans, CblasNonUnit, 1.0, g->r, g->spread);
 }
 
 static void find_covariance(algebra *g, const srp_vec3 *normals, cli_plate_fit *fit) {
@@ -278,8 +311,8 @@ static bool all_finite(const cli_samples *samples) {
     return true;
 }
 
-cli_fit_status cli_plate_fit_solve(const cli_samples *samples, const srp_vec3 *normals,
-                                   size_t count, cli_plate_fit *out) {
+static cli_fit_status solve(const cli_samples *samples, const srp_vec3 *normals, size_t count,
+                            bool with_covariance, cli_plate_fit *out) {
     if (3 * samples->count <= U * count) {
         return CLI_FIT_TOO_FEW;
     }
@@ -299,7 +332,9 @@ cli_fit_status cli_plate_fit_solve(const cli_samples *samples, const srp_vec3 *n
     }
     if (status == CLI_FIT_DONE) {
         set_plates(&g, unit, &fit);
-        find_covariance(&g, unit, &fit);
+        if (with_covariance) {
+            find_covariance(&g, unit, &fit);
+        }
     }
     gsl_set_error_handler(handler);
     algebra_free(&g);
@@ -310,6 +345,16 @@ cli_fit_status cli_plate_fit_solve(const cli_samples *samples, const srp_vec3 *n
     }
     *out = fit;
     return CLI_FIT_DONE;
+}
+
+cli_fit_status cli_plate_fit_solve(const cli_samples *samples, const srp_vec3 *normals,
+                                   size_t count, cli_plate_fit *out) {
+    return solve(samples, normals, count, true, out);
+}
+
+cli_fit_status cli_plate_fit_solve_only(const cli_samples *samples, const srp_vec3 *normals,
+                                        size_t count, cli_plate_fit *out) {
+    return solve(samples, normals, count, false, out);
 }
 
 bool cli_plate_fit_exists(void) {

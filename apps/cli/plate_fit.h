@@ -61,6 +61,9 @@ srp_vec3 cli_plates_force(const srp_plate *plates, size_t count, srp_vec3 s);
  * by cli_plate_fit_free(), and as it was unless the fit is done. */
 cli_fit_status cli_plate_fit_solve(const cli_samples *samples, const srp_vec3 *normals,
                                    size_t count, cli_plate_fit *out);
+/* The same without covariance and noise, which stay 0: for a search, which wants neither. */
+cli_fit_status cli_plate_fit_solve_only(const cli_samples *samples, const srp_vec3 *normals,
+                                        size_t count, cli_plate_fit *out);
 void cli_plate_fit_free(cli_plate_fit *fit);
 
 /* Standard deviation of a fitted number, CLI_FIT_AREA, ... of `plate`. */

@@ -17,11 +17,15 @@ enum {
     SPIRAL = 574,      /* more directions, spread evenly: 5 to 6 degrees apart */
     TURNS = 60,        /* steps of turning at most, in the end ... */
     TURNS_BETWEEN = 8, /* ... and after each new plate */
-    EXCHANGES = 2      /* times that each plate is taken out and searched anew */
+    EXCHANGES = 2,     /* times that each plate is taken out and searched anew */
+    PLATES_MAX = 64
 };
 
 /* Steps that gain less than this share of the squared residual end the turning. */
 static const double GAIN_MIN = 1e-10;
+
+/* Gains nearer than this are those of mirror images: the first is taken, whatever rounding says. */
+static const double TIE = 1e-9;
 
 /* ---- where one plate more helps most ---- */
 
@@ -94,6 +98,25 @@ static double gain_of(const cli_samples *samples, const srp_vec3 *residual, srp_
     return best;
 }
 
+/* Two directions at right angles to n and to each other. */
+static void across(srp_vec3 n, srp_vec3 out[2]) {
+    srp_vec3 axis = fabs(n.x) < 0.6 ? srp_vec3_make(1, 0, 0) : srp_vec3_make(0, 1, 0);
+    out[0] = srp_vec3_cross(n, axis);
+    out[0] = srp_vec3_scale(1.0 / srp_vec3_norm(out[0]), out[0]);
+    out[1] = srp_vec3_cross(n, out[0]);
+}
+
+/* Off a plane of symmetry, where turning has no reason to leave it, and only rounding would decide:
+ * by about a degree, each plate another way. */
+static srp_vec3 tilted(srp_vec3 n, size_t plate) {
+    const double tilt = 0.02, turn = SRP_PI * (3.0 - sqrt(5.0)) * (double)(plate + 1);
+    srp_vec3 t[2];
+    across(n, t);
+    n = srp_vec3_add_scaled(n, tilt * cos(turn), t[0]);
+    n = srp_vec3_add_scaled(n, tilt * sin(turn), t[1]);
+    return srp_vec3_scale(1.0 / srp_vec3_norm(n), n);
+}
+
 /* `residual` (samples): what is left to explain. Normals nearer than 10 degrees are taken. */
 static srp_vec3 best_candidate(const cli_samples *samples, const srp_vec3 *residual,
                                const srp_vec3 *normals, size_t count) {
@@ -107,12 +130,12 @@ static srp_vec3 best_candidate(const cli_samples *samples, const srp_vec3 *resid
             taken = taken || srp_vec3_dot(normal, normals[p]) > near;
         }
         double gain = taken ? -1.0 : gain_of(samples, residual, normal);
-        if (gain > most) {
+        if (gain > most + TIE * fabs(most)) {
             most = gain;
             best = normal;
         }
     }
-    return best;
+    return tilted(best, count);
 }
 
 /* ---- turning ---- */
@@ -124,14 +147,6 @@ static double squares_of(const cli_samples *samples, const cli_plate_fit *fit) {
         sum += samples->at[k].weight * srp_vec3_dot(off, off);
     }
     return sum;
-}
-
-/* Two directions at right angles to n and to each other. */
-static void across(srp_vec3 n, srp_vec3 out[2]) {
-    srp_vec3 axis = fabs(n.x) < 0.6 ? srp_vec3_make(1, 0, 0) : srp_vec3_make(0, 1, 0);
-    out[0] = srp_vec3_cross(n, axis);
-    out[0] = srp_vec3_scale(1.0 / srp_vec3_norm(out[0]), out[0]);
-    out[1] = srp_vec3_cross(n, out[0]);
 }
 
 /* Derivatives of the force of one plate: by a, v, w and by a turn towards each of `tangent`. */
@@ -183,31 +198,46 @@ static bool turning_make(turning *t, size_t count) {
            t->tangent != NULL && t->trial != NULL;
 }
 
+/* Adds one direction: derivatives d of each of the `lit` plates, to the blocks on and
+ * below the diagonal, and to the gradient. */
+static void add_direction(turning *t, double weight, srp_vec3 off, const size_t *lit,
+                          size_t lit_count, srp_vec3 (*d)[5]) {
+    for (size_t i = 0; i < lit_count; ++i) {
+        for (size_t u = 0; u < 5; ++u) {
+            srp_vec3 row = srp_vec3_scale(weight, d[i][u]);
+            *gsl_vector_ptr(t->gradient, 5 * lit[i] + u) += srp_vec3_dot(row, off);
+            for (size_t j = 0; j <= i; ++j) {
+                double *to = gsl_matrix_ptr(t->normal, 5 * lit[i] + u, 5 * lit[j]);
+                for (size_t v = 0; v < 5; ++v) {
+                    to[v] += srp_vec3_dot(row, d[j][v]);
+                }
+            }
+        }
+    }
+}
+
+/* Plates that the Sun is not in front of have no part in a direction: about half of them. */
+static void sum_directions(turning *t, const cli_samples *samples, const cli_plate_fit *fit) {
+    for (size_t k = 0; k < samples->count; ++k) {
+        srp_vec3 off = srp_vec3_sub(samples->value[k], fit->model[k]), d[PLATES_MAX][5];
+        size_t lit[PLATES_MAX], lit_count = 0;
+        for (size_t p = 0; p < t->count; ++p) {
+            if (srp_vec3_dot(fit->plates[p].normal, samples->at[k].s) > 0.0) {
+                derivatives(&fit->plates[p], samples->at[k].s, &t->tangent[2 * p], d[lit_count]);
+                lit[lit_count++] = p;
+            }
+        }
+        add_direction(t, samples->at[k].weight, off, lit, lit_count, d);
+    }
+}
+
 static void set_normal_equations(turning *t, const cli_samples *samples, const cli_plate_fit *fit) {
     gsl_matrix_set_zero(t->normal);
     gsl_vector_set_zero(t->gradient);
     for (size_t p = 0; p < t->count; ++p) {
         across(fit->plates[p].normal, &t->tangent[2 * p]);
     }
-    for (size_t k = 0; k < samples->count; ++k) {
-        double row[3][5 * 64];
-        srp_vec3 off = srp_vec3_sub(samples->value[k], fit->model[k]);
-        for (size_t p = 0; p < t->count; ++p) {
-            srp_vec3 d[5];
-            derivatives(&fit->plates[p], samples->at[k].s, &t->tangent[2 * p], d);
-            for (size_t u = 0; u < 5; ++u) {
-                row[0][5 * p + u] = d[u].x;
-                row[1][5 * p + u] = d[u].y;
-                row[2][5 * p + u] = d[u].z;
-            }
-        }
-        const double left[3] = {off.x, off.y, off.z};
-        for (int c = 0; c < 3; ++c) {
-            gsl_vector_const_view view = gsl_vector_const_view_array(row[c], t->size);
-            gsl_blas_dsyr(CblasLower, samples->at[k].weight, &view.vector, t->normal);
-            gsl_blas_daxpy(samples->at[k].weight * left[c], &view.vector, t->gradient);
-        }
-    }
+    sum_directions(t, samples, fit);
     /* Unknowns at their bound stay there, and plates without area are not turned. */
     for (size_t p = 0; p < t->count; ++p) {
         const srp_plate *plate = &fit->plates[p];
@@ -272,7 +302,7 @@ static cli_fit_status turn(const cli_samples *samples, cli_plate_fit *fit, int t
         }
         fresh = false;
         status = set_trial(&t, fit, damping)
-                     ? cli_plate_fit_solve(samples, t.trial, fit->count, &trial)
+                     ? cli_plate_fit_solve_only(samples, t.trial, fit->count, &trial)
                      : CLI_FIT_AMBIGUOUS;
         if (status == CLI_FIT_NO_MEMORY) {
             break;
@@ -305,7 +335,7 @@ static cli_fit_status turn(const cli_samples *samples, cli_plate_fit *fit, int t
 static cli_fit_status settle(const cli_samples *samples, srp_vec3 *normals, size_t count, int turns,
                              cli_plate_fit *out) {
     cli_plate_fit fit;
-    cli_fit_status status = cli_plate_fit_solve(samples, normals, count, &fit);
+    cli_fit_status status = cli_plate_fit_solve_only(samples, normals, count, &fit);
     if (status != CLI_FIT_DONE) {
         return status;
     }
@@ -351,7 +381,7 @@ static cli_fit_status exchange(const cli_samples *samples, size_t count, size_t 
     cli_plate_fit fit;
     memcpy(trial, normals, count * sizeof *trial);
     trial[p] = trial[count - 1];
-    cli_fit_status status = cli_plate_fit_solve(samples, trial, count - 1, &fit);
+    cli_fit_status status = cli_plate_fit_solve_only(samples, trial, count - 1, &fit);
     if (status != CLI_FIT_DONE) {
         return status;
     }
@@ -388,7 +418,7 @@ static cli_fit_status improve(const cli_samples *samples, size_t count, srp_vec3
 
 cli_fit_status cli_plate_normals_search(const cli_samples *search, const cli_samples *all,
                                         size_t count, srp_vec3 *normals) {
-    if (3 * search->count <= 5 * count || count > 64) {
+    if (3 * search->count <= 5 * count || count > PLATES_MAX) {
         return CLI_FIT_TOO_FEW;
     }
     gsl_error_handler_t *handler = gsl_set_error_handler_off();

@@ -42,7 +42,7 @@ offers 'cm' srp info --unit c
 offers '' srp force --az ''
 mkdir sub
 touch a.obj b.obj c.nc d.plates
-offers 'a.obj b.obj sub' srp info ''
+offers 'a.obj b.obj c.nc sub' srp info ''
 offers 'a.obj' srp table a
 offers 'c.nc' srp convert c
 offers 'c.nc sub' srp reoptic ''

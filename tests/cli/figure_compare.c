@@ -4,6 +4,7 @@
  *
  *     figure_compare reduce FIGURE.png SMALL.png     the mean of every 4 x 4 pixels
  *     figure_compare compare FIGURE.png SMALL.png    reduces FIGURE, and compares
+ *     figure_compare lightness FIGURE.png X,Y        prints L* of the 4 x 4 pixels about X, Y
  *
  * Fonts and the smoothing of edges differ a little from one machine to the next; a surface of
  * another shape or colour differs over whole areas. Status 0 when they look the same, 1 when not, 2
@@ -117,15 +118,31 @@ static int compare(const picture *a, const picture *b) {
     return mean <= MEAN_MAX && share <= SHARE_MAX ? 0 : 1;
 }
 
+static int print_lightness(const picture *small, const char *at) {
+    size_t x, y;
+    double lab[3];
+    if (sscanf(at, "%zu,%zu", &x, &y) != 2 || x / BLOCK >= small->width ||
+        y / BLOCK >= small->height) {
+        fprintf(stderr, "%s: no such pixel\n", at);
+        return 2;
+    }
+    cli_lab_of_srgb(&small->rgb[3 * (y / BLOCK * small->width + x / BLOCK)], lab);
+    printf("%.1f\n", lab[0]);
+    return 0;
+}
+
 int main(int argc, char **argv) {
     if (argc != 4) {
-        fprintf(stderr, "usage: figure_compare reduce|compare FIGURE.png SMALL.png\n");
+        fprintf(stderr,
+                "usage: figure_compare reduce|compare|lightness FIGURE.png SMALL.png|X,Y\n");
         return 2;
     }
     picture figure = read_png(argv[2]), small = reduce(&figure);
     int status;
     if (strcmp(argv[1], "reduce") == 0) {
         status = write_png(&small, argv[3]);
+    } else if (strcmp(argv[1], "lightness") == 0) {
+        status = print_lightness(&small, argv[3]);
     } else {
         picture golden = read_png(argv[3]);
         status = compare(&small, &golden);

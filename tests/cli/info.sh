@@ -138,6 +138,67 @@ printf '2\n1 0 0 1 0 0\n' > short.plates
 expect 1 info --plates short.plates
 says 'short.plates'
 
+# Tables: where they are from, what they hold, how large it is; numbers are those of the other commands.
+expect 0 table "$MODELS/box-wing.obj" -o t.nc -o t.spo -o t.txt --mass 850 --step 20 --method raycast --grid 32 \
+    --basis --check 20 --title 'a wing'
+read -r low high < <(sed -n 's/.*|f| from \([^ ]*\) to \([^ ]*\) m^2.*/\1 \2/p' ../log/out)
+expect 0 compare t.nc t.spo
+mean=$(sed -n 's/^mean size  A \([^ ]*\) .*/\1/p' ../log/out)
+expect 0 info t.nc
+silent
+prints 't.nc: a table (netcdf)'
+grep -qx 'title           a wing' ../log/out || fail 'the title of a table'
+grep -qx 'method          raycast (cpu)' ../log/out || fail 'the method of a table'
+grep -q '^command         srp table .* --title .a wing.$' ../log/out || fail 'the command of a table'
+prints 'made by         srpcore '
+prints 'mass            850 kg'
+prints 'sunlight        1367 W/m^2 at 1 au'
+prints 'forces, moments, standard errors, sums per material'
+prints '19 x 10 nodes, steps of 20 x 20 degrees'
+prints 'in 20 directions'
+prints 'panel_back                  0.05     0.35'
+read -r _ got_mean got_low got_high _ < <(grep '^|f| ' ../log/out)
+[ "$got_mean $got_low $got_high" = "$mean $low $high" ] ||
+    fail "|f| is $got_mean, $got_low to $got_high, elsewhere $mean, $low to $high"
+grep -Eq '^standard error +0\.[0-9]+ +0\.[0-9]+ +[0-9.]+ m\^2' ../log/out || fail 'standard errors'
+grep -Eq '^acceleration +1\.[0-9]+e-07 ' ../log/out || fail 'accelerations'
+prints_not 'Findings'
+expect 0 info t.spo
+prints 'standard error  not known'
+prints 'holds           forces'
+prints 'mass            not stated'
+expect 0 info t.txt
+prints 'mass            850 kg'
+expect 0 info t.nc --json
+prints '"filled": 190'
+prints '"mass_kg": 850,'
+prints "\"largest\": ${high%?}"
+! command -v python3 > /dev/null || python3 -m json.tool ../log/out > /dev/null || fail 'no JSON'
+# What is odd is found; what is no table is refused.
+awk 'function turn(x) { return x ~ /^-/ ? substr(x, 2) : "-" x }
+     NF >= 5 && $1 + 0 == $1 { $3 = turn($3); $4 = turn($4); $5 = turn($5) } { print }' t.spo > odd.spo
+expect 0 info odd.spo
+prints 'light pulls from'
+expect 2 info t.nc t.spo
+says 't.nc is a table and stands alone'
+expect 2 info t.nc --unit mm
+says 't.nc is a table and stands alone'
+expect 1 info none.nc
+says 'none.nc'
+cp "$MODELS/cube.obj" cube.spo
+expect 1 info cube.spo
+says 'cube.spo'
+# A run that was interrupted.
+for grid in 512 2048 8192 32768; do
+    timeout --foreground -s INT 0.3 "$SRP" table "$MODELS/box-wing.obj" -o u.nc --step 10 --method raycast \
+        --grid $grid > /dev/null 2>&1
+    [ ! -e u.nc.partial ] || break
+done
+mv u.nc.partial part.nc || fail 'no run could be interrupted in the midst'
+expect 0 info part.nc
+grep -Eq 'only [0-9]+ of 703 are filled' ../log/out || fail 'what is filled'
+prints_not '|f|'
+
 # The Lunar Reconnaissance Orbiter as it comes: open, without MTL, mixed polygons.
 if [ -r "$SHARED/lro/bus.obj" ]; then
     expect 0 info "$SHARED/lro/bus.obj"

@@ -20,7 +20,7 @@ fi
 looks() {
     local name=picture-$1 told
     shift
-    expect 0 picture "$@" -o "$name.png" --size 800x480
+    expect 0 picture "$@" -o "$name.png" --size "${size:-800x480}"
     silent
     prints "$name.png"
     if [ "$renew" = --renew ]; then
@@ -37,6 +37,31 @@ looks gnss "$MODELS/gnss.obj" --az -150 --el -60 --view 240,-40
 looks dish "$MODELS/dish.obj" --az 35 --el 40
 looks dish-force "$MODELS/dish.obj" --az 35 --el 40 --light force
 looks icosphere "$MODELS/icosphere-320.obj" --az 100 --el 90 --light incidence
+# As small as pictures may be: words in brief, nothing cut.
+size=300x300 looks small "$MODELS/gnss.obj" --az 35 --el 40
+size=300x300 looks small-incidence "$MODELS/gnss.obj" --az 35 --el 40 --light incidence
+
+# Numbers are those of srp force, to the digits that are shown.
+for model in box-wing gnss dish sun-shield; do
+    for sun in '35 25' '-150 -60' '0 90' '90.5 0.25'; do
+        expect 0 force "$MODELS/$model.obj" --az "${sun% *}" --el "${sun#* }"
+        awk 'function show(x) { return sprintf("%.4g", x * x > 1e-24 * size * size ? x : 0) }
+            $1 == "area" { x = $4; y = $5; z = $6; size = sqrt(x * x + y * y + z * z) }
+            $1 == "lit" { lit = $3 }
+            $1 == "force" { force = sqrt($3 * $3 + $4 * $4 + $5 * $5) }
+            END { printf "Direct light: f = (%s, %s, %s) m², |f| = %.4g m²\n", show(x), show(y), show(z), size
+                  printf "force at 1 au %.4g N; lit area %.4g m²\n", force, lit }' ../log/out > numbers
+        expect 0 picture "$MODELS/$model.obj" --az "${sun% *}" --el "${sun#* }" -o n.png --size 300x300
+        tail -n +2 ../log/out | cmp -s - numbers || fail "expected $(cat numbers)"
+    done
+done
+
+# The panel's shadow is on the box: of one face, one part is lit and one is dark.
+expect 0 picture "$MODELS/box-wing.obj" --az 70 --el 15 --view 115,15 -o shadow.png
+lit=$("$FIGURE_COMPARE" lightness shadow.png 1178,470)
+dark=$("$FIGURE_COMPARE" lightness shadow.png 1206,460)
+echo "box-wing: L* $lit in the Sun, $dark in shadow"
+awk "BEGIN { exit !($lit > 55 && $dark < 30) }" || fail 'no shadow on the box'
 
 # The pictures of the documentation are those that are drawn now.
 for name in picture-dish picture-dish-force; do

@@ -51,7 +51,13 @@ rm t.nc t.spo
 # A run of another model, method, parameter or grid is refused by name, and nothing is lost.
 cp kept t.nc.partial
 for change in --seed=1 --grid=100 --step=30 --reference=0,0,1 --material=bus=0,0 --basis; do
-    expect 1 "${args[@]}" "$change"
+    # In place of what the first run said: an option is given once.
+    changed=() skip=
+    for word in "${args[@]}"; do
+        [ -n "$skip" ] || [ "$word" = "${change%%=*}" ] || changed+=("$word")
+        [ "$word" = "${change%%=*}" ] && skip=value || skip=
+    done
+    expect 1 "${changed[@]}" "$change"
     says 't.nc.partial'
     says '--restart discards it'
     check 'the refused file was changed' cmp -s kept t.nc.partial

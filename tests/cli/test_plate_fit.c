@@ -238,6 +238,53 @@ START_TEST(normals_are_found) {
 }
 END_TEST
 
+/* What is symmetric offers a plate and its mirror image alike, and turns no plate off the plane
+ * between them: then the last digit must not choose. */
+START_TEST(rounding_chooses_no_normals) {
+    srp_plate box[6];
+    memcpy(box, BOX, sizeof box);
+    for (size_t p = 0; p < 6; ++p) {
+        box[p].area = p < 2 ? 38.3 : 1.9 + (double)(p / 2);
+        box[p].optics = (srp_optics){p == 0 ? 0.07 : 0.17, p == 0 ? 0.03 : 0.31, false};
+    }
+    for (size_t count = 1; count <= 5; ++count) {
+        cli_samples samples = table_of(box, 6, 10.0);
+        srp_vec3 normals[5], again[5];
+        ck_assert_int_eq(cli_plate_normals_search(&samples, &samples, count, normals),
+                         CLI_FIT_DONE);
+        for (size_t k = 0; k < samples.count; ++k) {
+            double share = 1.0 + 1e-14 * (double)((int)(k * k % 7) - 3);
+            samples.value[k] = srp_vec3_scale(share, samples.value[k]);
+        }
+        ck_assert_int_eq(cli_plate_normals_search(&samples, &samples, count, again), CLI_FIT_DONE);
+        double farthest = 0.0;
+        for (size_t p = 0; p < count; ++p) {
+            farthest = fmax(farthest, srp_vec3_norm(srp_vec3_sub(normals[p], again[p])));
+        }
+        printf("%zu plates, last digits changed: normals move by %.1e\n", count, farthest);
+        ck_assert(farthest < 1e-3);
+        cli_samples_free(&samples);
+    }
+}
+END_TEST
+
+START_TEST(a_search_fits_as_a_fit_does) {
+    make_models();
+    cli_samples samples = table_of(canted, 8, 10.0);
+    srp_vec3 normals[8];
+    cli_plate_fit whole, only;
+    normals_of(canted, 8, normals);
+    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 8, &whole), CLI_FIT_DONE);
+    ck_assert_int_eq(cli_plate_fit_solve_only(&samples, normals, 8, &only), CLI_FIT_DONE);
+    ck_assert(distance(only.plates, whole.plates, 8) == 0.0);
+    ck_assert(only.noise == 0.0 && cli_plate_fit_sigma(&only, 3, CLI_FIT_AREA) == 0.0);
+    ck_assert(cli_plate_fit_sigma(&whole, 3, CLI_FIT_AREA) > 0.0);
+    cli_plate_fit_free(&whole);
+    cli_plate_fit_free(&only);
+    cli_samples_free(&samples);
+}
+END_TEST
+
 START_TEST(bad_problems_are_refused) {
     cli_samples samples = table_of(BOX, 6, 90.0); /* 6 directions, 18 numbers */
     srp_vec3 normals[6];
@@ -299,6 +346,8 @@ int main(void) {
     tcase_add_test(tc, a_plate_that_is_not_there_has_no_area);
     tcase_add_test(tc, the_error_of_a_noisy_fit_is_known);
     tcase_add_test(tc, normals_are_found);
+    tcase_add_test(tc, rounding_chooses_no_normals);
+    tcase_add_test(tc, a_search_fits_as_a_fit_does);
     tcase_add_test(tc, bad_problems_are_refused);
     tcase_add_test(tc, non_negative_least_squares_is_optimal);
     suite_add_tcase(suite, tc);

@@ -38,6 +38,17 @@ wrong '--json takes no value' force --json=yes
 wrong '--az needs a value: DEG' force --az
 wrong '-o needs a value: FILE' table -o
 
+# Of two values none wins without a word, in any command; lists and flags may be repeated.
+wrong '--az is given twice and takes one value' "${force[@]}" --az 10
+wrong '--az is given twice' "${force[@]}" --az=11 --json
+wrong '--output (-o) is given twice and takes one value' plot a.nc -o a.png --output b.png
+wrong '--output (-o) is given twice' compare a.nc b.nc -o a.png -o b.png
+wrong '--output (-o) is given twice' picture "$cube" --az 1 --el 1 -o a.png -o b.png
+wrong '--output (-o) is given twice' fit-nplate a.nc -o a.plates -o b.plates
+wrong '--step is given twice' table "$cube" -o t.nc --step 5 --step 5
+wrong '--unit is given twice' info "$cube" --unit mm --unit cm
+expect 0 "${force[@]}" --json --json --material surface=0,0 --material surface=0.1,0.2
+
 # Numbers, strictly.
 for text in x 1x '' ' 1' 0x10 nan inf 1e999 1,5 --5; do
     wrong 'expected a number above 0' "${force[@]}" --mass "$text"
@@ -155,7 +166,7 @@ wrong 'operand 2 is empty, expected the name of a file' info "$cube" ''
 wrong 'operand 2 is empty' convert a.nc ''
 
 # Info.
-wrong 'no model given' info
+wrong 'nothing given: MODEL.obj, --plates FILE or a table' info
 wrong 'stands alone' info --plates "$MODELS/cube.plates" "$cube"
 wrong 'stands alone' info --plates "$MODELS/cube.plates" --unit mm
 
