@@ -78,6 +78,7 @@ HighFidelitySRP &HighFidelitySRP::operator=(const HighFidelitySRP &other) {
         shadow_bodies_.clear();
         masses_.clear();
         mass_id_ = -1;
+        attitudes_.forget_all();
         isInitialized = false;
     }
     return *this;
@@ -312,6 +313,7 @@ bool HighFidelitySRP::Initialize() {
         return false;
     }
     isInitialized = false;
+    attitudes_.forget_all();
     find_bodies();
     try {
         model_ = shared_->get(with_paths(), show);
@@ -373,7 +375,14 @@ void HighFidelitySRP::ClearSatelliteParameters(const std::string parmName) {
     }
     if (parmName.empty()) {
         scObjs.clear();
+        attitudes_.forget_all();
     }
+}
+
+// Also at the begin of every step.
+void HighFidelitySRP::SetSpaceObject(const Integer i, GmatBase *obj) {
+    PhysicalModel::SetSpaceObject(i, obj);
+    attitudes_.forget(i);
 }
 
 bool HighFidelitySRP::IsUserForce() {
@@ -384,9 +393,13 @@ bool HighFidelitySRP::IsUnique(const std::string &) {
     return true;
 }
 
-// So that the spacecraft, and with it the attitude, is at the state of the stage.
+// Whether the spacecraft, and with it the attitude, must be at the state of the stage: GMAT copies
+// that into it for each derivative. Asked when a Propagate begins, which has named its spacecraft.
 bool HighFidelitySRP::AttitudeAffectsDynamics() {
-    return true;
+    return scObjs.empty() || std::any_of(scObjs.begin(), scObjs.end(), [](GmatBase *one) {
+               return one == nullptr ||
+                      srp_plugin::may_follow_orbit(static_cast<Spacecraft *>(one));
+           });
 }
 
 // ---- The force ----------------------------------------------------------------------------------
@@ -404,27 +417,20 @@ HighFidelitySRP::Sky HighFidelitySRP::sky_at(Real a1mjd) {
     return sky;
 }
 
-void HighFidelitySRP::accelerate(Spacecraft *sc, Real a1mjd, const Real *r_km, Real mass,
-                                 const Sky &sky, srp_vec3 *a, double (*da_dr)[3]) {
+// `state` has the attitude and the mass.
+void HighFidelitySRP::accelerate(const Spacecraft *sc, const Real *r_km, const Sky &sky,
+                                 srp_acceleration_state *state, srp_vec3 *a, double (*da_dr)[3]) {
     srp_body bodies[SRP_ACCELERATION_BODIES_MAX];
-    srp_acceleration_state state;
     const srp_vec3 r = metres(r_km[0], r_km[1], r_km[2]);
-    state.sun = srp_vec3_sub(sky.sun, r);
-    state.count = shadow_bodies_.size();
-    state.bodies = bodies;
-    for (size_t k = 0; k < state.count; ++k) {
+    state->sun = srp_vec3_sub(sky.sun, r);
+    state->count = shadow_bodies_.size();
+    state->bodies = bodies;
+    for (size_t k = 0; k < state->count; ++k) {
         bodies[k].position = srp_vec3_sub(sky.bodies[k], r);
         bodies[k].radius = METRES_PER_KM * shadow_bodies_[k]->GetEquatorialRadius();
     }
-    const Rmatrix33 &matrix = sc->GetAttitude(a1mjd);
-    for (Integer i = 0; i < 3; ++i) {
-        for (Integer j = 0; j < 3; ++j) {
-            state.matrix[i][j] = matrix(i, j);
-        }
-    }
-    state.mass = mass;
     srp_error error;
-    if (srp_acceleration_eval(&params_, model_->source(), &state, a, da_dr, &error) != SRP_OK) {
+    if (srp_acceleration_eval(&params_, model_->source(), state, a, da_dr, &error) != SRP_OK) {
         fail("spacecraft " + sc->GetName() + ": " + srp_plugin::words_of(error));
     }
 }
@@ -469,9 +475,12 @@ bool HighFidelitySRP::GetDerivatives(Real *state, Real dt, Integer order, const 
     for (Integer i = 0; i < cartesianCount; ++i) {
         const Integer begin = cartesianStart + 6 * i;
         Spacecraft *sc = static_cast<Spacecraft *>(scObjs[size_t(i)]);
+        srp_acceleration_state at;
         srp_vec3 a;
         double da_dr[3][3];
-        accelerate(sc, now, state + begin, mass_of(i), sky, &a, partials ? da_dr : nullptr);
+        attitudes_.get(i, sc, now, at.matrix);
+        at.mass = mass_of(i);
+        accelerate(sc, state + begin, sky, &at, &a, partials ? da_dr : nullptr);
         if (fillCartesian) {
             Real *out = deriv + begin + (order == 1 ? 3 : 0);
             out[0] = a.x / METRES_PER_KM;
@@ -492,7 +501,10 @@ Rvector6 HighFidelitySRP::GetDerivativesForSpacecraft(Spacecraft *sc) {
     const Real now = sc->GetEpoch();
     Real state[6];
     BuildModelState(now, state, sc->GetState().GetState());
+    srp_acceleration_state at;
     srp_vec3 a;
-    accelerate(sc, now, state, sc->GetRealParameter("TotalMass"), sky_at(now), &a, nullptr);
+    srp_plugin::Attitudes().get(0, sc, now, at.matrix); // not one of a propagation
+    at.mass = sc->GetRealParameter("TotalMass");
+    accelerate(sc, state, sky_at(now), &at, &a, nullptr);
     return Rvector6(0.0, 0.0, 0.0, a.x / METRES_PER_KM, a.y / METRES_PER_KM, a.z / METRES_PER_KM);
 }
