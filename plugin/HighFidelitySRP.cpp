@@ -26,6 +26,14 @@ void show(const std::string &words) {
     MessageInterface::ShowMessage("%s: %s\n", TYPE_NAME, words.c_str());
 }
 
+std::vector<std::string> names_of(const std::vector<GmatBase *> &objects) {
+    std::vector<std::string> names;
+    for (const GmatBase *one : objects) {
+        names.push_back(one->GetName());
+    }
+    return names;
+}
+
 srp_vec3 metres(Real x, Real y, Real z) {
     return srp_vec3_make(METRES_PER_KM * x, METRES_PER_KM * y, METRES_PER_KM * z);
 }
@@ -53,8 +61,8 @@ std::string found(const std::string &name) {
 
 HighFidelitySRP::HighFidelitySRP(const std::string &name)
     : PhysicalModel(Gmat::PHYSICAL_MODEL, TYPE_NAME, name),
-      shared_(std::make_shared<srp_plugin::SharedModel>()),
-      params_(srp_acceleration_params_default()), sun_(nullptr), mass_id_(-1) {
+      shared_(std::make_shared<srp_plugin::SharedModel>(show)),
+      params_(srp_acceleration_params_default()), sun_(nullptr), mass_id_(-1), introduced_(false) {
     objectTypeNames.push_back(TYPE_NAME);
     parameterCount = PhysicalModelParamCount + Integer(srp_plugin::fields().size());
     derivativeIds.push_back(Gmat::CARTESIAN_STATE);
@@ -63,7 +71,7 @@ HighFidelitySRP::HighFidelitySRP(const std::string &name)
 
 HighFidelitySRP::HighFidelitySRP(const HighFidelitySRP &other)
     : PhysicalModel(other), settings_(other.settings_), shared_(other.shared_),
-      params_(other.params_), sun_(nullptr), mass_id_(-1) {
+      params_(other.params_), sun_(nullptr), mass_id_(-1), introduced_(false) {
     isInitialized = false;
 }
 
@@ -79,6 +87,7 @@ HighFidelitySRP &HighFidelitySRP::operator=(const HighFidelitySRP &other) {
         masses_.clear();
         mass_id_ = -1;
         attitudes_.forget_all();
+        introduced_ = false;
         isInitialized = false;
     }
     return *this;
@@ -111,7 +120,7 @@ const Field *HighFidelitySRP::field_of(Integer id) const {
 
 // A field is set: what the copies made so far have is not ours any more.
 void HighFidelitySRP::changed() {
-    shared_ = std::make_shared<srp_plugin::SharedModel>();
+    shared_ = std::make_shared<srp_plugin::SharedModel>(show);
     isInitialized = false;
 }
 
@@ -313,11 +322,13 @@ bool HighFidelitySRP::Initialize() {
         return false;
     }
     isInitialized = false;
+    introduced_ = false;
     attitudes_.forget_all();
     find_bodies();
     try {
-        model_ = shared_->get(with_paths(), show);
+        model_ = shared_->get(with_paths());
     } catch (const srp_plugin::BadSetting &bad) {
+        shared_->notes().flush();
         fail(bad.what());
     }
     isInitialized = true;
@@ -465,7 +476,12 @@ bool HighFidelitySRP::GetDerivatives(Real *state, Real dt, Integer order, const 
     }
     if (Integer(scObjs.size()) < cartesianCount) {
         fail("there are " + std::to_string(cartesianCount) + " states, but only " +
-             std::to_string(scObjs.size()) + " spacecraft");
+             std::to_string(scObjs.size()) +
+             " spacecraft: " + srp_plugin::list_of(names_of(scObjs)));
+    }
+    if (!introduced_) {
+        shared_->notes().concern(names_of(scObjs));
+        introduced_ = true;
     }
     const Real now = epoch + (elapsedTime + dt) / SECONDS_PER_DAY;
     const Sky sky = sky_at(now);
@@ -498,6 +514,7 @@ Rvector6 HighFidelitySRP::GetDerivativesForSpacecraft(Spacecraft *sc) {
     if (model_ == nullptr || body == nullptr) {
         fail("asked for an acceleration before it was initialized");
     }
+    shared_->notes().concern({sc->GetName()});
     const Real now = sc->GetEpoch();
     Real state[6];
     BuildModelState(now, state, sc->GetState().GetState());

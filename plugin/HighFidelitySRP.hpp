@@ -107,6 +107,7 @@ class HighFidelitySRP : public PhysicalModel {
     std::vector<Real> masses_;
     Integer mass_id_;
     srp_plugin::Attitudes attitudes_;
+    bool introduced_; // whether the notes know the spacecraft
 };
 
 #endif
