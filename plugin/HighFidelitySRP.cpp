@@ -317,6 +317,14 @@ void HighFidelitySRP::find_shadow_bodies() {
     }
 }
 
+// Copies are of the force models that their original is of.
+srp_plugin::ForceModels HighFidelitySRP::force_models() const {
+    return srp_plugin::force_models_with([this](const PhysicalModel *force) {
+        const auto *one = dynamic_cast<const HighFidelitySRP *>(force);
+        return one != nullptr && one->shared_ == shared_;
+    });
+}
+
 bool HighFidelitySRP::Initialize() {
     if (!PhysicalModel::Initialize()) {
         return false;
@@ -325,11 +333,16 @@ bool HighFidelitySRP::Initialize() {
     introduced_ = false;
     attitudes_.forget_all();
     find_bodies();
+    const srp_plugin::ForceModels models = force_models();
+    for (const std::string &name : models.doubled) {
+        shared_->notes().add(name + ".SRP is On as well: the Sun pushes twice");
+    }
     try {
         model_ = shared_->get(with_paths());
     } catch (const srp_plugin::BadSetting &bad) {
         shared_->notes().flush();
-        fail(bad.what());
+        const std::string of = srp_plugin::list_of(models.names);
+        fail(bad.what() + (of.empty() ? "" : " (force model " + of + ")"));
     }
     isInitialized = true;
     return true;

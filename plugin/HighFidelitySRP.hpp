@@ -6,6 +6,7 @@
 
 #include "AreaModel.hpp"
 #include "Attitudes.hpp"
+#include "Script.hpp"
 #include "Settings.hpp"
 
 #include <srp/acceleration.h>
@@ -85,6 +86,7 @@ class HighFidelitySRP : public PhysicalModel {
     const srp_plugin::Field *field_of(Integer id) const;
     void changed();
     srp_plugin::Settings with_paths() const;
+    srp_plugin::ForceModels force_models() const;
     void find_bodies();
     void find_shadow_bodies();
     Sky sky_at(Real a1mjd);

@@ -546,6 +546,14 @@ START_TEST(files_lie_beside_the_script) {
 }
 END_TEST
 
+// GMAT's own, as far as it matters here.
+class Spherical : public HighFidelitySRP {
+  public:
+    std::string GetTypeName() const {
+        return "SolarRadiationPressure";
+    }
+};
+
 static std::string stops(HighFidelitySRP &force) {
     try {
         force.Initialize();
@@ -582,6 +590,46 @@ START_TEST(what_is_missing_is_said) {
 }
 END_TEST
 
+// Copies know the force model of the script that their original is of, and who flies by them.
+START_TEST(messages_name_force_model_and_spacecraft) {
+    Sky sky;
+    Spacecraft a = make_craft("A", 0.3), b = make_craft("B", 1.1);
+    Spherical spherical;
+    ODEModel with("FM"), without("Other"), bare("Bare");
+    Real state[12] = {36607.4, -20921.7, 11.0, 1.5, 2.6, 0.01,
+                      -7000.0, 39000.0,  21.0, 0.1, 0.2, 0.3};
+    {
+        Force force = configured(), alone = configured();
+        with.forces = {&spherical, force.get()};
+        without.forces = {alone.get()};
+        bare.forces = {&spherical};
+        ConfigManager::Instance()->models = {&bare, &without, &with};
+        Force own = started(*force, sky, &sky.earth, {&a, &b}, {850.0, 212.5});
+        ck_assert(sky.messages.text == "");
+        ck_assert(own->GetDerivatives(state, 0.0, 1));
+        ck_assert_msg(sky.messages.text == "HighFidelitySRP: A, B: FM.SRP is On as well: the Sun "
+                                           "pushes twice\n",
+                      "%s", sky.messages.text.c_str());
+        // Not for every copy, and not where it is off.
+        Force again = started(*force, sky, &sky.earth, {&a}, {850.0});
+        ck_assert(again->GetDerivatives(state, 0.0, 1));
+        Force other = started(*alone, sky, &sky.earth, {&b}, {850.0});
+        ck_assert(other->GetDerivatives(state, 0.0, 1));
+        ck_assert(sky.messages.text.find("twice") == sky.messages.text.rfind("twice"));
+        alone->SetStringParameter("SRPObjFile", "nowhere.obj");
+        Force broken = clone(*alone);
+        broken->SetForceOrigin(&sky.earth);
+        broken->SetSolarSystem(&sky.system);
+        ck_assert(stops(*broken).find("nowhere.obj") != std::string::npos);
+        ck_assert(stops(*broken).find(" (force model Other)") != std::string::npos);
+        ConfigManager::Instance()->models.clear();
+    }
+    // At the end of the models.
+    ck_assert(sky.messages.text.find("HighFidelitySRP: A, B: ") != std::string::npos);
+    ck_assert(sky.messages.text.find("HighFidelitySRP: B: ") != std::string::npos);
+}
+END_TEST
+
 int main() {
     Suite *suite = suite_create("plugin_force");
     TCase *tcase = tcase_create("plugin_force");
@@ -599,6 +647,7 @@ int main() {
     tcase_add_test(tcase, clones_trace_once);
     tcase_add_test(tcase, files_lie_beside_the_script);
     tcase_add_test(tcase, what_is_missing_is_said);
+    tcase_add_test(tcase, messages_name_force_model_and_spacecraft);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);
 }

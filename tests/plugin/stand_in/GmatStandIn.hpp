@@ -18,7 +18,7 @@ typedef std::vector<Integer> IntegerArray;
 typedef std::vector<std::string> StringArray;
 
 namespace Gmat {
-const UnsignedInt PHYSICAL_MODEL = 112, COORDINATE_SYSTEM = 121, ATTITUDE = 129;
+const UnsignedInt PHYSICAL_MODEL = 112, COORDINATE_SYSTEM = 121, ATTITUDE = 129, ODE_MODEL = 130;
 enum ParameterType { INTEGER_TYPE, REAL_TYPE, STRING_TYPE, BOOLEAN_TYPE, FILENAME_TYPE };
 enum StateElementId {
     CARTESIAN_STATE = 3700,
@@ -346,6 +346,41 @@ class PhysicalModel : public GmatBase {
     bool isConservative;
     std::vector<GmatBase *> scObjs;
     enum { PhysicalModelParamCount = GmatBaseParamCount + 4 };
+};
+
+class ODEModel : public PhysicalModel {
+  public:
+    explicit ODEModel(const std::string &name)
+        : PhysicalModel(Gmat::ODE_MODEL, "ForceModel", name) {
+    }
+    GmatBase *Clone() const {
+        return new ODEModel(*this);
+    }
+    bool HasLocalClones() {
+        return false;
+    }
+    bool RenameRefObject(const UnsignedInt, const std::string &, const std::string &) {
+        return true;
+    }
+    Integer GetNumForces() {
+        return Integer(forces.size());
+    }
+    PhysicalModel *GetForce(Integer i) const {
+        return forces[size_t(i)];
+    }
+    std::vector<PhysicalModel *> forces;
+};
+
+// The objects of the script.
+class ConfigManager {
+  public:
+    static ConfigManager *Instance();
+    const StringArray &GetListOfItems(UnsignedInt type);
+    GmatBase *GetItem(const std::string &name);
+    std::vector<ODEModel *> models;
+
+  private:
+    StringArray list;
 };
 
 class Factory {
