@@ -116,9 +116,11 @@ void AreaModel::read_table(const Settings &settings) {
                          ": its forces pull towards the Sun: it follows the opposite sign "
                          "convention, srp convert --flip turns it round");
     }
-    const srp_log to = log();
-    srp_table_inspect(table.get(), path, &to, nullptr);
     interpolate(settings, table.get(), "SRPTableFile");
+    if (interp_) { // GMAT's own look-up takes every node as it is
+        const srp_log to = log();
+        srp_table_inspect(table.get(), path, &to, nullptr);
+    }
     warn_of_table(settings, table.get());
 }
 

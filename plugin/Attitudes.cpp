@@ -9,30 +9,38 @@ namespace srp_plugin {
 
 namespace {
 
-// The names are those of GMAT's scripts; a kind that is derived from one of these is another one.
-bool is_kind(GmatBase *attitude, const char *name) {
-    return attitude != nullptr && attitude->GetTypeName() == name;
+// Names of GMAT; made once, for they are looked for in every step.
+const std::string FIXED = "CoordinateSystemFixed", SPINNER = "Spinner", INERTIAL = "InertialAxes",
+                  EQUATOR = "MJ2000EqAxes", ECLIPTIC = "MJ2000EcAxes",
+                  ANGULAR_X = "AngularVelocityX", ANGULAR_Y = "AngularVelocityY",
+                  ANGULAR_Z = "AngularVelocityZ";
+
+// Of an attitude that is fixed in a coordinate system; may be NULL.
+CoordinateSystem *system_of(GmatBase *attitude) {
+    return static_cast<CoordinateSystem *>(attitude->GetRefObject(
+        Gmat::COORDINATE_SYSTEM, attitude->GetRefObjectName(Gmat::COORDINATE_SYSTEM)));
 }
 
-bool is_fixed_in(GmatBase *attitude, const char *axes) {
-    if (!is_kind(attitude, "CoordinateSystemFixed")) {
-        return false;
-    }
-    GmatBase *system = attitude->GetRefObject(Gmat::COORDINATE_SYSTEM,
-                                              attitude->GetRefObjectName(Gmat::COORDINATE_SYSTEM));
-    return system != nullptr && static_cast<CoordinateSystem *>(system)->AreAxesOfType(axes);
+// A kind that is derived from a known one has a name of its own, and is not known.
+std::string kind_of(const GmatBase *attitude) {
+    return attitude == nullptr ? "" : attitude->GetTypeName();
 }
 
 // To the last bit: in axes whose matrix is worked out once, or spun by nothing. (A spinner works
 // out each attitude from the last one that was asked for: no more must be asked than is needed.)
 bool is_constant(Spacecraft *sc) {
     GmatBase *attitude = sc->GetRefObject(Gmat::ATTITUDE, "");
-    if (is_kind(attitude, "Spinner")) {
-        return attitude->GetRealParameter("AngularVelocityX") == 0.0 &&
-               attitude->GetRealParameter("AngularVelocityY") == 0.0 &&
-               attitude->GetRealParameter("AngularVelocityZ") == 0.0;
+    const std::string kind = kind_of(attitude);
+    if (kind == SPINNER) {
+        return attitude->GetRealParameter(ANGULAR_X) == 0.0 &&
+               attitude->GetRealParameter(ANGULAR_Y) == 0.0 &&
+               attitude->GetRealParameter(ANGULAR_Z) == 0.0;
     }
-    return is_fixed_in(attitude, "MJ2000EqAxes") || is_fixed_in(attitude, "MJ2000EcAxes");
+    if (kind != FIXED) {
+        return false;
+    }
+    const CoordinateSystem *system = system_of(attitude);
+    return system != nullptr && (system->AreAxesOfType(EQUATOR) || system->AreAxesOfType(ECLIPTIC));
 }
 
 } // namespace
@@ -41,9 +49,13 @@ bool may_follow_orbit(Spacecraft *sc) {
     static const char *const OF_TIME_ALONE[] = {"Spinner", "PrecessingSpinner", "SpiceAttitude",
                                                 "CCSDS-AEM"};
     GmatBase *attitude = sc->GetRefObject(Gmat::ATTITUDE, "");
-    return std::none_of(std::begin(OF_TIME_ALONE), std::end(OF_TIME_ALONE),
-                        [&](const char *name) { return is_kind(attitude, name); }) &&
-           !is_fixed_in(attitude, "InertialAxes");
+    const std::string kind = kind_of(attitude);
+    if (kind == FIXED) {
+        const CoordinateSystem *system = system_of(attitude);
+        return system == nullptr || !system->AreAxesOfType(INERTIAL);
+    }
+    return std::find(std::begin(OF_TIME_ALONE), std::end(OF_TIME_ALONE), kind) ==
+           std::end(OF_TIME_ALONE);
 }
 
 void Attitudes::forget(Integer i) {

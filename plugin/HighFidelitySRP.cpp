@@ -39,7 +39,7 @@ srp_vec3 metres(Real x, Real y, Real z) {
 }
 
 srp_vec3 place_of(CelestialBody *body, Real a1mjd) {
-    const Rvector6 state = body->GetState(a1mjd);
+    const Rvector6 &state = body->GetState(a1mjd);
     return metres(state[0], state[1], state[2]);
 }
 
