@@ -12,37 +12,14 @@ namespace srp_plugin {
 std::string words_of(const srp_error &error) {
     char text[1400];
     srp_error_format(&error, text, sizeof text);
-    return text;
+    return std::string(text) +
+           (error.remedy == SRP_REMEDY_OPTICS ? " or in one that SRPMtlFile names" : "");
 }
 
 namespace {
 
 [[noreturn]] void fail(const char *field, const srp_error &error) {
     throw BadSetting(std::string(field) + ": " + words_of(error));
-}
-
-// A list whose entries win over those of files that are read later.
-Owned<srp_materials> pinned_materials(const std::string &path, const srp_log &log) {
-    srp_error error;
-    srp_materials *made = nullptr;
-    if (srp_materials_create(&made, &error) != SRP_OK) {
-        fail("SRPMtlFile", error);
-    }
-    Owned<srp_materials> read(made);
-    if (srp_materials_read_mtl(read.get(), path.c_str(), &log, &error) != SRP_OK ||
-        srp_materials_create(&made, &error) != SRP_OK) {
-        fail("SRPMtlFile", error);
-    }
-    Owned<srp_materials> pinned(made);
-    for (size_t i = 0; i < srp_materials_count(read.get()); ++i) {
-        const char *name = srp_materials_name(read.get(), i);
-        srp_optics optics;
-        if (srp_materials_find(read.get(), name, &optics) &&
-            srp_materials_set(pinned.get(), name, optics, true, &error) != SRP_OK) {
-            fail("SRPMtlFile", error);
-        }
-    }
-    return pinned;
 }
 
 srp_method_params params_of(const Settings &settings) {
@@ -140,6 +117,10 @@ void AreaModel::read_table(const Settings &settings) {
                          "convention, srp convert --flip turns it round");
     }
     interpolate(settings, table.get(), "SRPTableFile");
+    if (interp_) { // GMAT's own look-up takes every node as it is
+        const srp_log to = log();
+        srp_table_inspect(table.get(), path, &to, nullptr);
+    }
     warn_of_table(settings, table.get());
 }
 
@@ -192,7 +173,14 @@ void AreaModel::read_scene(const Settings &settings) {
     const srp_log to = log();
     Owned<srp_materials> given;
     if (!settings.mtl_file.empty()) {
-        given = pinned_materials(settings.mtl_file, to);
+        srp_materials *made = nullptr;
+        if (srp_materials_create(&made, &error) != SRP_OK) {
+            fail("SRPMtlFile", error);
+        }
+        given.reset(made);
+        if (srp_materials_read_mtl(made, settings.mtl_file.c_str(), &to, &error) != SRP_OK) {
+            fail("SRPMtlFile", error);
+        }
     }
     const char *path = settings.obj_file.c_str();
     srp_scene *scene = nullptr;
@@ -322,12 +310,13 @@ std::string key_of(const Settings &s) {
 
 } // namespace
 
-std::shared_ptr<const AreaModel> SharedModel::get(const Settings &settings,
-                                                  const Messages &messages) {
+std::shared_ptr<const AreaModel> SharedModel::get(const Settings &settings) {
     const std::lock_guard<std::mutex> guard(mutex_);
     std::string key = key_of(settings);
     if (!model_ || key != key_) {
-        model_ = std::make_shared<const AreaModel>(settings, messages);
+        const std::shared_ptr<Notes> notes = notes_;
+        model_ = std::make_shared<const AreaModel>(
+            settings, [notes](const std::string &text) { notes->add(text); });
         key_ = std::move(key);
     }
     return model_;

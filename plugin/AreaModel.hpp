@@ -4,6 +4,7 @@
 #ifndef SRP_PLUGIN_AREA_MODEL_HPP
 #define SRP_PLUGIN_AREA_MODEL_HPP
 
+#include "Notes.hpp"
 #include "Settings.hpp"
 
 #include <srp/acceleration.h>
@@ -16,17 +17,14 @@
 #include <srp/spad.h>
 #include <srp/table.h>
 
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 namespace srp_plugin {
 
-// Where warnings and notes go, a line each.
-using Messages = std::function<void(const std::string &)>;
-
-// What srpcore says about an error: place, what was found, what was expected.
+// What srpcore says about an error: place, what was found, what was expected, which field helps.
 std::string words_of(const srp_error &error);
 
 struct Release {
@@ -101,11 +99,17 @@ class AreaModel {
 // it, and made anew when a file has changed.
 class SharedModel {
   public:
+    explicit SharedModel(Messages to) : notes_(std::make_shared<Notes>(std::move(to))) {
+    }
     // Throws BadSetting.
-    std::shared_ptr<const AreaModel> get(const Settings &settings, const Messages &messages);
+    std::shared_ptr<const AreaModel> get(const Settings &settings);
+    Notes &notes() {
+        return *notes_;
+    }
 
   private:
     std::mutex mutex_;
+    std::shared_ptr<Notes> notes_; // also of the models, which say how it went at their end
     std::string key_;
     std::shared_ptr<const AreaModel> model_;
 };

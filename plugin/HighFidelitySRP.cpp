@@ -26,12 +26,20 @@ void show(const std::string &words) {
     MessageInterface::ShowMessage("%s: %s\n", TYPE_NAME, words.c_str());
 }
 
+std::vector<std::string> names_of(const std::vector<GmatBase *> &objects) {
+    std::vector<std::string> names;
+    for (const GmatBase *one : objects) {
+        names.push_back(one->GetName());
+    }
+    return names;
+}
+
 srp_vec3 metres(Real x, Real y, Real z) {
     return srp_vec3_make(METRES_PER_KM * x, METRES_PER_KM * y, METRES_PER_KM * z);
 }
 
 srp_vec3 place_of(CelestialBody *body, Real a1mjd) {
-    const Rvector6 state = body->GetState(a1mjd);
+    const Rvector6 &state = body->GetState(a1mjd);
     return metres(state[0], state[1], state[2]);
 }
 
@@ -53,8 +61,8 @@ std::string found(const std::string &name) {
 
 HighFidelitySRP::HighFidelitySRP(const std::string &name)
     : PhysicalModel(Gmat::PHYSICAL_MODEL, TYPE_NAME, name),
-      shared_(std::make_shared<srp_plugin::SharedModel>()),
-      params_(srp_acceleration_params_default()), sun_(nullptr), mass_id_(-1) {
+      shared_(std::make_shared<srp_plugin::SharedModel>(show)),
+      params_(srp_acceleration_params_default()), sun_(nullptr), mass_id_(-1), introduced_(false) {
     objectTypeNames.push_back(TYPE_NAME);
     parameterCount = PhysicalModelParamCount + Integer(srp_plugin::fields().size());
     derivativeIds.push_back(Gmat::CARTESIAN_STATE);
@@ -63,7 +71,7 @@ HighFidelitySRP::HighFidelitySRP(const std::string &name)
 
 HighFidelitySRP::HighFidelitySRP(const HighFidelitySRP &other)
     : PhysicalModel(other), settings_(other.settings_), shared_(other.shared_),
-      params_(other.params_), sun_(nullptr), mass_id_(-1) {
+      params_(other.params_), sun_(nullptr), mass_id_(-1), introduced_(false) {
     isInitialized = false;
 }
 
@@ -78,6 +86,8 @@ HighFidelitySRP &HighFidelitySRP::operator=(const HighFidelitySRP &other) {
         shadow_bodies_.clear();
         masses_.clear();
         mass_id_ = -1;
+        attitudes_.forget_all();
+        introduced_ = false;
         isInitialized = false;
     }
     return *this;
@@ -110,7 +120,7 @@ const Field *HighFidelitySRP::field_of(Integer id) const {
 
 // A field is set: what the copies made so far have is not ours any more.
 void HighFidelitySRP::changed() {
-    shared_ = std::make_shared<srp_plugin::SharedModel>();
+    shared_ = std::make_shared<srp_plugin::SharedModel>(show);
     isInitialized = false;
 }
 
@@ -307,16 +317,32 @@ void HighFidelitySRP::find_shadow_bodies() {
     }
 }
 
+// Copies are of the force models that their original is of.
+srp_plugin::ForceModels HighFidelitySRP::force_models() const {
+    return srp_plugin::force_models_with([this](const PhysicalModel *force) {
+        const auto *one = dynamic_cast<const HighFidelitySRP *>(force);
+        return one != nullptr && one->shared_ == shared_;
+    });
+}
+
 bool HighFidelitySRP::Initialize() {
     if (!PhysicalModel::Initialize()) {
         return false;
     }
     isInitialized = false;
+    introduced_ = false;
+    attitudes_.forget_all();
     find_bodies();
+    const srp_plugin::ForceModels models = force_models();
+    for (const std::string &name : models.doubled) {
+        shared_->notes().add(name + ".SRP is On as well: the Sun pushes twice");
+    }
     try {
-        model_ = shared_->get(with_paths(), show);
+        model_ = shared_->get(with_paths());
     } catch (const srp_plugin::BadSetting &bad) {
-        fail(bad.what());
+        shared_->notes().flush();
+        const std::string of = srp_plugin::list_of(models.names);
+        fail(bad.what() + (of.empty() ? "" : " (force model " + of + ")"));
     }
     isInitialized = true;
     return true;
@@ -373,7 +399,14 @@ void HighFidelitySRP::ClearSatelliteParameters(const std::string parmName) {
     }
     if (parmName.empty()) {
         scObjs.clear();
+        attitudes_.forget_all();
     }
+}
+
+// Also at the begin of every step.
+void HighFidelitySRP::SetSpaceObject(const Integer i, GmatBase *obj) {
+    PhysicalModel::SetSpaceObject(i, obj);
+    attitudes_.forget(i);
 }
 
 bool HighFidelitySRP::IsUserForce() {
@@ -384,9 +417,13 @@ bool HighFidelitySRP::IsUnique(const std::string &) {
     return true;
 }
 
-// So that the spacecraft, and with it the attitude, is at the state of the stage.
+// Whether the spacecraft, and with it the attitude, must be at the state of the stage: GMAT copies
+// that into it for each derivative. Asked when a Propagate begins, which has named its spacecraft.
 bool HighFidelitySRP::AttitudeAffectsDynamics() {
-    return true;
+    return scObjs.empty() || std::any_of(scObjs.begin(), scObjs.end(), [](GmatBase *one) {
+               return one == nullptr ||
+                      srp_plugin::may_follow_orbit(static_cast<Spacecraft *>(one));
+           });
 }
 
 // ---- The force ----------------------------------------------------------------------------------
@@ -404,27 +441,20 @@ HighFidelitySRP::Sky HighFidelitySRP::sky_at(Real a1mjd) {
     return sky;
 }
 
-void HighFidelitySRP::accelerate(Spacecraft *sc, Real a1mjd, const Real *r_km, Real mass,
-                                 const Sky &sky, srp_vec3 *a, double (*da_dr)[3]) {
+// `state` has the attitude and the mass.
+void HighFidelitySRP::accelerate(const Spacecraft *sc, const Real *r_km, const Sky &sky,
+                                 srp_acceleration_state *state, srp_vec3 *a, double (*da_dr)[3]) {
     srp_body bodies[SRP_ACCELERATION_BODIES_MAX];
-    srp_acceleration_state state;
     const srp_vec3 r = metres(r_km[0], r_km[1], r_km[2]);
-    state.sun = srp_vec3_sub(sky.sun, r);
-    state.count = shadow_bodies_.size();
-    state.bodies = bodies;
-    for (size_t k = 0; k < state.count; ++k) {
+    state->sun = srp_vec3_sub(sky.sun, r);
+    state->count = shadow_bodies_.size();
+    state->bodies = bodies;
+    for (size_t k = 0; k < state->count; ++k) {
         bodies[k].position = srp_vec3_sub(sky.bodies[k], r);
         bodies[k].radius = METRES_PER_KM * shadow_bodies_[k]->GetEquatorialRadius();
     }
-    const Rmatrix33 &matrix = sc->GetAttitude(a1mjd);
-    for (Integer i = 0; i < 3; ++i) {
-        for (Integer j = 0; j < 3; ++j) {
-            state.matrix[i][j] = matrix(i, j);
-        }
-    }
-    state.mass = mass;
     srp_error error;
-    if (srp_acceleration_eval(&params_, model_->source(), &state, a, da_dr, &error) != SRP_OK) {
+    if (srp_acceleration_eval(&params_, model_->source(), state, a, da_dr, &error) != SRP_OK) {
         fail("spacecraft " + sc->GetName() + ": " + srp_plugin::words_of(error));
     }
 }
@@ -459,7 +489,12 @@ bool HighFidelitySRP::GetDerivatives(Real *state, Real dt, Integer order, const 
     }
     if (Integer(scObjs.size()) < cartesianCount) {
         fail("there are " + std::to_string(cartesianCount) + " states, but only " +
-             std::to_string(scObjs.size()) + " spacecraft");
+             std::to_string(scObjs.size()) +
+             " spacecraft: " + srp_plugin::list_of(names_of(scObjs)));
+    }
+    if (!introduced_) {
+        shared_->notes().concern(names_of(scObjs));
+        introduced_ = true;
     }
     const Real now = epoch + (elapsedTime + dt) / SECONDS_PER_DAY;
     const Sky sky = sky_at(now);
@@ -469,9 +504,12 @@ bool HighFidelitySRP::GetDerivatives(Real *state, Real dt, Integer order, const 
     for (Integer i = 0; i < cartesianCount; ++i) {
         const Integer begin = cartesianStart + 6 * i;
         Spacecraft *sc = static_cast<Spacecraft *>(scObjs[size_t(i)]);
+        srp_acceleration_state at;
         srp_vec3 a;
         double da_dr[3][3];
-        accelerate(sc, now, state + begin, mass_of(i), sky, &a, partials ? da_dr : nullptr);
+        attitudes_.get(i, sc, now, at.matrix);
+        at.mass = mass_of(i);
+        accelerate(sc, state + begin, sky, &at, &a, partials ? da_dr : nullptr);
         if (fillCartesian) {
             Real *out = deriv + begin + (order == 1 ? 3 : 0);
             out[0] = a.x / METRES_PER_KM;
@@ -489,10 +527,14 @@ Rvector6 HighFidelitySRP::GetDerivativesForSpacecraft(Spacecraft *sc) {
     if (model_ == nullptr || body == nullptr) {
         fail("asked for an acceleration before it was initialized");
     }
+    shared_->notes().concern({sc->GetName()});
     const Real now = sc->GetEpoch();
     Real state[6];
     BuildModelState(now, state, sc->GetState().GetState());
+    srp_acceleration_state at;
     srp_vec3 a;
-    accelerate(sc, now, state, sc->GetRealParameter("TotalMass"), sky_at(now), &a, nullptr);
+    srp_plugin::Attitudes().get(0, sc, now, at.matrix); // not one of a propagation
+    at.mass = sc->GetRealParameter("TotalMass");
+    accelerate(sc, state, sky_at(now), &at, &a, nullptr);
     return Rvector6(0.0, 0.0, 0.0, a.x / METRES_PER_KM, a.y / METRES_PER_KM, a.z / METRES_PER_KM);
 }

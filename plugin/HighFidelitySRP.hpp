@@ -5,9 +5,8 @@
 #define SRP_PLUGIN_HIGH_FIDELITY_SRP_HPP
 
 #include "AreaModel.hpp"
-// R2026a names it even where CSPICE is left out.
-class SpiceOrbitKernelReader;
-#include "PhysicalModel.hpp"
+#include "Attitudes.hpp"
+#include "Script.hpp"
 #include "Settings.hpp"
 
 #include <srp/acceleration.h>
@@ -72,6 +71,7 @@ class HighFidelitySRP : public PhysicalModel {
                                        const Integer parmID = -1);
     virtual void SetSatelliteParameter(const Integer i, Integer parmID, const Real parm);
     virtual void ClearSatelliteParameters(const std::string parmName = "");
+    virtual void SetSpaceObject(const Integer i, GmatBase *obj);
     virtual bool IsUserForce();
     virtual bool IsUnique(const std::string &forBody = "");
     virtual bool AttitudeAffectsDynamics();
@@ -86,11 +86,12 @@ class HighFidelitySRP : public PhysicalModel {
     const srp_plugin::Field *field_of(Integer id) const;
     void changed();
     srp_plugin::Settings with_paths() const;
+    srp_plugin::ForceModels force_models() const;
     void find_bodies();
     void find_shadow_bodies();
     Sky sky_at(Real a1mjd);
-    void accelerate(Spacecraft *sc, Real a1mjd, const Real *r_km, Real mass, const Sky &sky,
-                    srp_vec3 *a, double (*da_dr)[3]);
+    void accelerate(const Spacecraft *sc, const Real *r_km, const Sky &sky,
+                    srp_acceleration_state *state, srp_vec3 *a, double (*da_dr)[3]);
     Real mass_of(Integer satellite);
     Integer add_partials(Integer satellite, Integer before, const double da_dr[3][3]);
 
@@ -107,6 +108,8 @@ class HighFidelitySRP : public PhysicalModel {
     // From ODEModel.
     std::vector<Real> masses_;
     Integer mass_id_;
+    srp_plugin::Attitudes attitudes_;
+    bool introduced_; // whether the notes know the spacecraft
 };
 
 #endif

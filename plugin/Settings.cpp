@@ -73,14 +73,22 @@ void check_range(const Field &field, double value) {
     throw BadSetting(message.str());
 }
 
-bool is_word_of(const std::string &value, const char *words) {
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+}
+
+// The one of `words` that `value` is but for small and capital letters, as GMAT writes words of its
+// own with a capital; "" for none.
+std::string word_of(const std::string &value, const char *words) {
     std::istringstream all(words);
     for (std::string word; all >> word;) {
-        if (word == value) {
-            return true;
+        if (word.size() == value.size() &&
+            std::equal(word.begin(), word.end(), value.begin(),
+                       [](char a, char b) { return lower(a) == lower(b); })) {
+            return word;
         }
     }
-    return false;
+    return "";
 }
 
 // Whether a field has another value than it begins with.
@@ -92,7 +100,7 @@ bool is_set(const Settings &settings, const Field &field) {
 // Fields that would count for nothing are a misunderstanding. `names`: with blanks between.
 void refuse(const Settings &settings, const char *names, const char *reason) {
     for (const Field &field : fields()) {
-        if (is_word_of(field.name, names) && is_set(settings, field)) {
+        if (!word_of(field.name, names).empty() && is_set(settings, field)) {
             throw BadSetting(std::string(field.name) + ": " + reason);
         }
     }
@@ -145,11 +153,12 @@ void set_integer(Settings &settings, const Field &field, int value) {
 }
 
 void set_text(Settings &settings, const Field &field, const std::string &value) {
-    if (field.words != nullptr && !is_word_of(value, field.words)) {
+    const std::string taken = field.words != nullptr ? word_of(value, field.words) : value;
+    if (field.words != nullptr && taken.empty()) {
         throw BadSetting(std::string(field.name) + ": found '" + value + "', expected one of " +
                          field.words);
     }
-    settings.*std::get<std::string Settings::*>(field.member) = value;
+    settings.*std::get<std::string Settings::*>(field.member) = taken;
 }
 
 void check(const Settings &settings) {

@@ -131,8 +131,9 @@ static int reweigh(reoptic_job *job, const srp_materials *materials) {
         return cli_input_error(&error);
     }
     if (status != SRP_OK) {
-        fprintf(stderr, "%s: %s\n", job->input, error.message);
-        return CLI_BAD_INPUT;
+        snprintf(error.file, sizeof error.file, "%s", job->input);
+        (void)cli_input_error(&error);
+        return CLI_BAD_INPUT; /* the table's fault, whatever was asked for */
     }
     return CLI_DONE;
 }

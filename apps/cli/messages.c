@@ -61,9 +61,24 @@ bool cli_reject(const cli_option *option, const char *text, const char *expected
     return false;
 }
 
+/* The option that would help; a window has none. */
+static const char *remedy(const srp_error *error) {
+    static const char *const WORDS[] = {
+        [SRP_REMEDY_NONE] = "",
+        [SRP_REMEDY_OPTICS] = " or as --material NAME=RHO_S,RHO_D",
+        [SRP_REMEDY_MASS] = " (--mass KG)",
+        [SRP_REMEDY_BASIS] = " (--basis)",
+        [SRP_REMEDY_KEEP_BOUNCE] = " (--keep-bounce)",
+    };
+    return taker == NULL ? WORDS[error->remedy] : "";
+}
+
 static void print_error(const srp_error *error) {
     char text[TEXT_SIZE];
-    srp_error_format(error, text, sizeof text);
+    size_t size = srp_error_format(error, text, sizeof text);
+    if (size < sizeof text) {
+        snprintf(text + size, sizeof text - size, "%s", remedy(error));
+    }
     if (error->file[0] == '\0') {
         cli_say("%s", text);
     } else {

@@ -69,15 +69,13 @@ static void place_log(void *user, const srp_error *what) {
     }
 }
 
-/* The library says how the command line would give optics; here that is an entry. */
-static void reword(srp_error *why) {
-    static const char LIBRARYS[] = "as --material NAME=RHO_S,RHO_D";
-    static const char OURS[] = "under 'materials' of the mission";
-    char *at = strstr(why->message, LIBRARYS);
-    if (at != NULL) {
-        char rest[sizeof why->message];
-        snprintf(rest, sizeof rest, "%s", at + strlen(LIBRARYS));
-        snprintf(at, sizeof why->message - (size_t)(at - why->message), "%s%s", OURS, rest);
+/* Where optics are given here. */
+static void add_remedy(srp_error *why) {
+    if (why->remedy == SRP_REMEDY_OPTICS) {
+        size_t used = strlen(why->message);
+        snprintf(why->message + used, sizeof why->message - used,
+                 " or under 'materials' of the mission");
+        why->remedy = SRP_REMEDY_NONE;
     }
 }
 
@@ -98,7 +96,7 @@ static srp_status read_mesh(const mission_site *site, const mission_radiation *i
         const srp_log log = {place_log, (void *)site};
         status = srp_scene_read_obj(&path, 1, &params, given, &log, &site->mission->scene, &why);
         if (status != SRP_OK) {
-            reword(&why);
+            add_remedy(&why);
         }
         status = mission_at_file(source, "forces.radiation.file", status, &why, error);
     }

@@ -13,6 +13,9 @@ srp_status srp_fail(srp_error *error, srp_status status, const char *format, ...
 srp_status srp_fail_at(srp_error *error, srp_status status, const char *file, size_t line,
                        size_t column, const char *format, ...) SRP_PRINTF(6, 7);
 
+/* Adds what would help, and returns the status: return srp_advise(error, REMEDY, srp_fail(...)); */
+srp_status srp_advise(srp_error *error, srp_remedy remedy, srp_status status);
+
 /* Sends a warning to `log` (may be NULL). */
 void srp_warn_at(const srp_log *log, const char *file, size_t line, size_t column,
                  const char *format, ...) SRP_PRINTF(5, 6);

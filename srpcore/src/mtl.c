@@ -99,11 +99,12 @@ static srp_status read_channels(const mtl_reader *reader, srp_text text, const c
     }
     if (channel[0] != channel[1] || channel[0] != channel[2]) {
         const char *name = material_name(reader);
-        return srp_fail_at(
+        status = srp_fail_at(
             reader->error, SRP_BAD_DATA, reader->text.name, out->where.line, out->where.column,
             "material %s: %s is %g %g %g, expected three equal channels; give rho_s and rho_d "
-            "in the file, or the material as --material NAME=RHO_S,RHO_D",
+            "in the file",
             srp_string_excerpt(name).text, keyword, channel[0], channel[1], channel[2]);
+        return srp_advise(reader->error, SRP_REMEDY_OPTICS, status);
     }
     out->given = true;
     out->value = channel[0];

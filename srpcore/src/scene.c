@@ -144,10 +144,11 @@ static srp_status take_materials(srp_scene *scene, const srp_mesh *mesh,
     char names[600];
     size_t missing = list_missing(mesh, materials, names, sizeof names);
     if (missing > 0) {
-        return srp_fail(error, SRP_NOT_FOUND,
-                        "no optics for %zu material%s: %s%s; give them in the MTL file (rho_s, "
-                        "rho_d) or as --material NAME=RHO_S,RHO_D",
-                        missing, missing == 1 ? "" : "s", names, missing > 8 ? ", ..." : "");
+        srp_status status =
+            srp_fail(error, SRP_NOT_FOUND,
+                     "no optics for %zu material%s: %s%s; give them in the MTL file (rho_s, rho_d)",
+                     missing, missing == 1 ? "" : "s", names, missing > 8 ? ", ..." : "");
+        return srp_advise(error, SRP_REMEDY_OPTICS, status);
     }
     for (size_t i = 0; i < scene->material_count; ++i) {
         const char *name = srp_mesh_material_name(mesh, i);

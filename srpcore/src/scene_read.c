@@ -125,6 +125,9 @@ srp_status srp_scene_read_obj(const char *const *paths, size_t count,
     } else if (status != SRP_OK) {
         status = srp_fail_at(error, status, paths[0], 0, 0, "%s", why.message);
     }
+    if (status != SRP_OK) {
+        srp_advise(error, why.remedy, status);
+    }
 done:
     srp_mesh_destroy(mesh);
     srp_materials_destroy(materials);

@@ -49,6 +49,7 @@ static void fill(srp_error *error, srp_status status, const char *file, size_t l
     copy_file_name(error->file, sizeof error->file, file);
     error->line = line;
     error->column = column;
+    error->remedy = SRP_REMEDY_NONE;
     vsnprintf(error->message, sizeof error->message, format, arguments);
 }
 
@@ -69,6 +70,13 @@ srp_status srp_fail_at(srp_error *error, srp_status status, const char *file, si
         va_start(arguments, format);
         fill(error, status, file, line, column, format, arguments);
         va_end(arguments);
+    }
+    return status;
+}
+
+srp_status srp_advise(srp_error *error, srp_remedy remedy, srp_status status) {
+    if (error != NULL) {
+        error->remedy = remedy;
     }
     return status;
 }

@@ -451,11 +451,24 @@ const srp_table_format *const *srp_table_format_list(size_t *count) {
     return FORMATS;
 }
 
+/* `ending` is in small letters; in `path` they may be capitals. */
+static bool ends_with(const char *path, const char *ending) {
+    size_t length = strlen(path), size = strlen(ending);
+    if (length <= size) {
+        return false;
+    }
+    for (size_t k = 0; k < size; ++k) {
+        char c = path[length - size + k];
+        if ((c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) != ending[k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
 const srp_table_format *srp_table_format_of(const char *path) {
-    size_t length = strlen(path);
     for (size_t k = 0; k < sizeof FORMATS / sizeof FORMATS[0]; ++k) {
-        size_t ending = strlen(FORMATS[k]->ending);
-        if (length > ending && strcmp(path + length - ending, FORMATS[k]->ending) == 0) {
+        if (ends_with(path, FORMATS[k]->ending)) {
             return FORMATS[k];
         }
     }
@@ -470,8 +483,10 @@ srp_status srp_table_write(const srp_table *table, const srp_table_format *forma
                            table->filled_count, srp_grid_node_count(table->grid), format->ending);
     }
     if ((format->capabilities & SRP_FORMAT_MASS) && isnan(table->info.mass)) {
-        return srp_fail_at(error, SRP_BAD_ARGUMENT, path, 0, 0,
-                           "a %s file holds accelerations: the mass must be given", format->ending);
+        srp_status status =
+            srp_fail_at(error, SRP_BAD_ARGUMENT, path, 0, 0,
+                        "a %s file holds accelerations: the mass must be given", format->ending);
+        return srp_advise(error, SRP_REMEDY_MASS, status);
     }
     return format->write(table, path, error);
 }

@@ -5,9 +5,10 @@
 
 #include <math.h>
 
-/* Shares of the largest |f| from which spreads and rounding are worth a word. */
+/* Shares of the largest |f| from which spreads, rounding and a wrong |f| are worth a word. */
 static const double SPREAD_MIN = 1e-9;
 static const double QUANTUM_MIN = 1e-7;
+static const double TOTAL_MIN = 1e-4;
 
 static double pole_spread(const srp_table *table, uint32_t j) {
     uint32_t count = table->grid.az_count - 1; /* the last one is the first */
@@ -64,6 +65,17 @@ static double quantum(const srp_table *table, double f_max) {
     return 0.0;
 }
 
+/* A column of |f| that its row belies: the text was changed by hand, or is not what it seems. */
+static void warn_of_total(const srp_table *table, const srp_table_report *report, const char *name,
+                          const srp_log *log) {
+    if (table->total.off > fmax(4.0 * report->quantum, TOTAL_MIN * report->f_max)) {
+        srp_warn_at(log, name, table->total.line, 0,
+                    "the sixth column says a |f| of %.6g m^2, which is %.3g m^2 from that of the "
+                    "components before it; these count",
+                    table->total.said, table->total.off);
+    }
+}
+
 static void warn(const srp_table_report *report, const char *name, const srp_log *log) {
     static const char *const POLES[2] = {"-90", "90"};
     double least = SPREAD_MIN * report->f_max;
@@ -101,6 +113,7 @@ void srp_table_inspect(const srp_table *table, const char *name, const srp_log *
     report.seam_spread = seam_spread(table);
     report.quantum = quantum(table, report.f_max);
     warn(&report, name, log);
+    warn_of_total(table, &report, name, log);
     if (out != NULL) {
         *out = report;
     }

@@ -23,6 +23,12 @@ struct srp_table {
     srp_basis *basis; /* (az_count, el_count, material_count + 1), NULL when not kept */
     unsigned char *filled;
     size_t filled_count;
+    /* Where the text that it was read from says a |f| of its own, the farthest of them from that of
+     * the components [m^2]; line 0: nowhere. */
+    struct {
+        size_t line;
+        double said, off;
+    } total;
 };
 
 /* Index of node (i, j) in nodes and filled. */

@@ -38,16 +38,20 @@ static bool follows_light(const srp_table *table) {
 
 static srp_status check_table(const srp_table *table, bool keep_bounce, srp_error *error) {
     if (!table->info.has_basis) {
-        return srp_fail(error, SRP_UNSUPPORTED,
-                        "the table keeps no sums per material, which other optics follow from: "
-                        "make it with --basis and as .nc");
+        srp_status status =
+            srp_fail(error, SRP_UNSUPPORTED,
+                     "the table keeps no sums per material, which other optics follow from: make "
+                     "it anew with them, as .nc");
+        return srp_advise(error, SRP_REMEDY_BASIS, status);
     }
     if (follows_light(table) && !keep_bounce) {
-        return srp_fail(error, SRP_UNSUPPORTED,
-                        "the table holds reflected light (method %s), which is not linear in the "
-                        "optics: only its direct part can be re-weighted, with the reflected part "
-                        "kept as traced (--keep-bounce)",
-                        table->info.method);
+        srp_status status =
+            srp_fail(error, SRP_UNSUPPORTED,
+                     "the table holds reflected light (method %s), which is not linear in the "
+                     "optics: only its direct part can be re-weighted, with the reflected part "
+                     "kept as traced",
+                     table->info.method);
+        return srp_advise(error, SRP_REMEDY_KEEP_BOUNCE, status);
     }
     size_t cut = follows_light(table) ? 0 : cut_count(table);
     if (cut > 0) {

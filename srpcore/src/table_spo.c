@@ -161,8 +161,8 @@ typedef struct reader {
     motion motions[2];
     int motion_count;
     int64_t record_count; /* -1 while unknown */
-    bool has_torque;
-    double force_scale[3], torque_scale[3];
+    bool has_total, has_torque;
+    double force_scale[3], total_scale, torque_scale[3];
     srp_table *table;
     size_t rows, columns; /* columns of the first row */
 } reader;
@@ -446,7 +446,9 @@ static srp_status take_units(reader *in) {
         }
     }
     /* Total force, then the torques; files with fewer columns, or other ones, are fine without. */
-    in->has_torque = srp_text_next_token(&in->text, &token) && !isnan(unit_scale(token, 2));
+    in->has_total = srp_text_next_token(&in->text, &token) && !isnan(unit_scale(token, 2));
+    in->total_scale = in->has_total ? unit_scale(token, 2) : NAN;
+    in->has_torque = in->has_total;
     for (int k = 0; k < 3 && in->has_torque; ++k) {
         srp_text_next_token(&in->text, &token);
         in->torque_scale[k] = unit_scale(token, 3);
@@ -474,10 +476,32 @@ static srp_status check_columns(reader *in, srp_token line) {
     return SRP_OK;
 }
 
+/* |f| as the sixth column has it, which counts for nothing. Other columns than torques may follow;
+ * without these it is not asked to be a number. */
+static srp_status take_total(reader *in, srp_token line, srp_vec3 f) {
+    srp_token token;
+    double total;
+    if (!in->has_torque && !srp_text_next_token(&in->text, &token)) {
+        return SRP_OK;
+    }
+    srp_status status = in->has_torque
+                            ? srp_text_double(&in->text, "the total force", &total, NULL, in->error)
+                            : srp_token_double(&in->text, token, "the total force", &total, NULL);
+    if (status != SRP_OK) {
+        return in->has_torque ? status : SRP_OK;
+    }
+    double said = total * in->total_scale, off = fabs(said - srp_vec3_norm(f));
+    if (off > in->table->total.off) {
+        in->table->total.line = line.line;
+        in->table->total.said = said;
+        in->table->total.off = off;
+    }
+    return SRP_OK;
+}
+
 static srp_status take_row(reader *in, srp_token line) {
     srp_table_row row;
     srp_vec3 f, t = {0.0, 0.0, 0.0};
-    double total;
     srp_status status = srp_table_row_begin(&in->text, &row, in->error);
     if (status == SRP_OK) {
         status = srp_table_row_check(&in->text, in->table->grid, in->rows, &row, in->error);
@@ -485,8 +509,8 @@ static srp_status take_row(reader *in, srp_token line) {
     if (status == SRP_OK) {
         status = srp_table_row_vec3(&in->text, "Force", in->force_scale, &f, in->error);
     }
-    if (status == SRP_OK && in->has_torque) {
-        status = srp_text_double(&in->text, "the total force", &total, NULL, in->error);
+    if (status == SRP_OK && in->has_total) {
+        status = take_total(in, line, f);
     }
     if (status == SRP_OK && in->has_torque) {
         status = srp_table_row_vec3(&in->text, "Torque", in->torque_scale, &t, in->error);

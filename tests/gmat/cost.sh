@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # What the plugin costs: GMAT's own run times of 30 days in GEO with its Spherical model, with its
-# SPADFile and with the plugin, in turns; medians and ratios. Not a test, for time is not what ctest
-# can judge:
+# SPADFile and with the plugin, in turns; medians of them and of the ratios of each turn. Not a test,
+# for time is not what ctest can judge:
 #
 #   GMAT_ROOT=... PLUGIN=... SRP=... ROOT=... bash tests/gmat/cost.sh [ROUNDS]
 . "$(dirname "$0")/lib.sh"
@@ -26,9 +26,11 @@ mission() {
     echo 'Propagate Prop(Sat) {Sat.ElapsedDays = 30};'
 }
 median() { sort -g | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
+# over KIND: the plugin's time over that of KIND in the same turn.
+over() { paste plugin.times "$1.times" | awk '{ printf "%.3f\n", $1 / $2 }' | median; }
 
 for gravity in 0 8 20; do
-    for mode in nadir inertial; do
+    for mode in inertial spinner nadir; do
         for kind in round spad plugin; do
             mission $kind $mode $gravity > $kind.script
             : > $kind.times
@@ -39,10 +41,9 @@ for gravity in 0 8 20; do
                 sed -n 's/.*Total Run Time: \([0-9.]*\) seconds.*/\1/p' log >> $kind.times
             done
         done
-        echo "$mode, gravity $gravity x $gravity:" \
-            "$(median < round.times) $(median < spad.times) $(median < plugin.times)" |
-            awk '{ n = NF; printf "%s | Spherical %.2f s, SPADFile %.2f s, plugin %.2f s | plugin over Spherical %.2f, over SPADFile %.2f\n",
-                $1 " " $2 " " $3 " " $4 " " $5, $(n - 2), $(n - 1), $n, $n / $(n - 2), $n / $(n - 1) }'
+        echo "$mode, gravity $gravity x $gravity | Spherical $(median < round.times) s," \
+            "SPADFile $(median < spad.times) s, plugin $(median < plugin.times) s |" \
+            "plugin over Spherical $(over round), over SPADFile $(over spad)"
     done
 done
 finish

@@ -94,8 +94,12 @@ $1.BodyConstraintVectorX = 0;
 $1.BodyConstraintVectorY = 1;
 $1.BodyConstraintVectorZ = 0;
 END
+    inertial) # body axes are those of the system: GMAT takes no quaternion there
+        printf '%s.Attitude = CoordinateSystemFixed;\n' "$1"
+        printf '%s.AttitudeCoordinateSystem = EarthMJ2000Eq;\n' "$1"
+        ;;
     *) cat << END ;;
-$1.Attitude = $([ "$2" = spinner ] && echo Spinner || echo CoordinateSystemFixed);
+$1.Attitude = Spinner;
 $1.AttitudeDisplayStateType = Quaternion;
 $1.AttitudeRateDisplayStateType = AngularVelocity;
 $1.AttitudeCoordinateSystem = EarthMJ2000Eq;

@@ -258,6 +258,131 @@ START_TEST(mass_follows_the_tank) {
 }
 END_TEST
 
+// A spacecraft that has this attitude, and how often it is asked for it in a step of three stages
+// and a second step of two.
+struct Asked {
+    int first, second;
+};
+static Asked asked_in_steps(Spacecraft &sc, Sky &sky) {
+    Force force = started(*configured(), sky, &sky.earth, {&sc}, {850.0});
+    Real state[6] = {36607.4, -20921.7, 11.0, 1.5, 2.6, 0.01};
+    Asked asked;
+    sc.asked = 0;
+    for (Real dt : {0.0, 10.0, 20.0}) {
+        ck_assert(force->GetDerivatives(state, dt, 1));
+    }
+    asked.first = sc.asked;
+    sc.asked = 0;
+    force->SetSpaceObject(0, &sc);
+    for (Real dt : {0.0, 10.0}) {
+        ck_assert(force->GetDerivatives(state, dt, 1));
+    }
+    asked.second = sc.asked;
+    return asked;
+}
+
+static void spin(Spacecraft &sc, Real z) {
+    sc.kind.BecomeKind("Spinner");
+    sc.kind.real = {{"AngularVelocityX", 0.0}, {"AngularVelocityY", 0.0}, {"AngularVelocityZ", z}};
+}
+
+START_TEST(attitude_is_asked_for_when_it_can_change) {
+    Sky sky;
+    Spacecraft sc = make_craft("A", 0.3);
+    const struct {
+        const char *kind;
+        StringArray axes;
+        bool constant, follows_orbit;
+    } cases[] = {
+        {"CoordinateSystemFixed", {"InertialAxes", "MJ2000EqAxes"}, true, false},
+        {"CoordinateSystemFixed", {"InertialAxes", "MJ2000EcAxes"}, true, false},
+        {"CoordinateSystemFixed", {"InertialAxes", "ICRFAxes"}, false, false},
+        {"CoordinateSystemFixed", {"DynamicAxes", "ObjectReferencedAxes"}, false, true},
+        {"NadirPointing", {"InertialAxes", "MJ2000EqAxes"}, false, true},
+        {"ThreeAxisKinematic", {"InertialAxes", "MJ2000EqAxes"}, false, true},
+        {"OfAnotherPlugin", {"InertialAxes", "MJ2000EqAxes"}, false, true},
+        {"PrecessingSpinner", {"InertialAxes", "MJ2000EqAxes"}, false, false},
+        {"SpiceAttitude", {"InertialAxes", "MJ2000EqAxes"}, false, false},
+        {"CCSDS-AEM", {"InertialAxes", "MJ2000EqAxes"}, false, false},
+    };
+    for (const auto &one : cases) {
+        sc.kind.BecomeKind(one.kind);
+        sc.kind.system.axes = one.axes;
+        const Asked asked = asked_in_steps(sc, sky);
+        ck_assert_msg(asked.first == (one.constant ? 1 : 3), "%s: %d", one.kind, asked.first);
+        ck_assert_msg(asked.second == (one.constant ? 1 : 2), "%s: %d", one.kind, asked.second);
+        Force force = started(*configured(), sky, &sky.earth, {&sc}, {850.0});
+        ck_assert_msg(force->AttitudeAffectsDynamics() == one.follows_orbit, "%s", one.kind);
+    }
+    spin(sc, 0.0);
+    ck_assert_int_eq(asked_in_steps(sc, sky).first, 1);
+    spin(sc, 0.15);
+    ck_assert_int_eq(asked_in_steps(sc, sky).first, 3);
+    // One of them is enough, and nothing known is not nothing.
+    Spacecraft nadir = make_craft("B", 1.1);
+    Force force = started(*configured(), sky, &sky.earth, {&sc, &nadir}, {850.0, 212.5});
+    ck_assert(force->AttitudeAffectsDynamics());
+    ck_assert(configured()->AttitudeAffectsDynamics());
+}
+END_TEST
+
+// What stays within a step is looked at anew in the next one, in the next Propagate, and in
+// reports.
+START_TEST(attitude_that_is_changed_is_noticed) {
+    Sky sky;
+    Spacecraft sc = make_craft("A", 0.3);
+    sc.kind.BecomeKind("CoordinateSystemFixed");
+    Real state[6] = {36607.4, -20921.7, 11.0, 1.5, 2.6, 0.01};
+    Force force = started(*configured(), sky, &sky.earth, {&sc}, {850.0});
+    const auto now = [&](HighFidelitySRP &of, Real dt) {
+        ck_assert(of.GetDerivatives(state, dt, 1));
+        return acceleration_of(of, 3);
+    };
+    const srp_vec3 before = now(*force, 0.0);
+    turn(sc, 1.1);
+    assert_vec3_close(now(*force, 0.0), before, 0.0, 0.0); // nobody turns it within a step
+    std::copy(state, state + 6, sc.state.values);
+    sc.epoch = EPOCH;
+    const Rvector6 reported = force->GetDerivativesForSpacecraft(&sc);
+    const srp_vec3 after = srp_vec3_make(reported[3], reported[4], reported[5]);
+    ck_assert(srp_vec3_norm(srp_vec3_sub(after, before)) > 0.01 * srp_vec3_norm(before));
+    force->SetSpaceObject(0, &sc);
+    assert_vec3_close(now(*force, 0.0), after, 1e-12, 0.0);
+    // The next command, with a clone of its own; a copy does not remember either.
+    turn(sc, 0.3);
+    assert_vec3_close(now(*started(*force, sky, &sky.earth, {&sc}, {850.0}), 0.0), before, 0.0,
+                      0.0);
+    // Another spacecraft in its place, and another kind of attitude.
+    Spacecraft other = make_craft("B", 1.1);
+    other.kind.BecomeKind("CoordinateSystemFixed");
+    force->SetSpaceObject(0, &other);
+    assert_vec3_close(now(*force, 0.0), after, 1e-12, 0.0);
+    spin(other, 0.15);
+    force->SetSpaceObject(0, &other);
+    now(*force, 0.0);
+    turn(other, 0.3);
+    assert_vec3_close(now(*force, 10.0), before, 1e-5, 0.0);
+}
+END_TEST
+
+// A burn: the tank empties at each stage while the attitude stays.
+START_TEST(a_burn_changes_the_mass_at_each_stage) {
+    Sky sky;
+    Spacecraft sc = make_craft("A", 0.3);
+    sc.kind.BecomeKind("CoordinateSystemFixed");
+    Real state[6] = {36607.4, -20921.7, 11.0, 1.5, 2.6, 0.01};
+    Force force = started(*configured(), sky, &sky.earth, {&sc}, {850.0});
+    ck_assert(force->GetDerivatives(state, 0.0, 1));
+    const srp_vec3 full = acceleration_of(*force, 3);
+    for (Real mass : {850.0, 425.0, 212.5}) {
+        force->SetSatelliteParameter(0, MASS_ID, mass);
+        ck_assert(force->GetDerivatives(state, 0.0, 1));
+        assert_vec3_close(acceleration_of(*force, 3), srp_vec3_scale(850.0 / mass, full), 1e-15,
+                          0.0);
+    }
+}
+END_TEST
+
 START_TEST(the_centre_is_any_body) {
     Sky sky;
     Spacecraft sc = make_craft("A", 0.3);
@@ -421,6 +546,14 @@ START_TEST(files_lie_beside_the_script) {
 }
 END_TEST
 
+// GMAT's own, as far as it matters here.
+class Spherical : public HighFidelitySRP {
+  public:
+    std::string GetTypeName() const {
+        return "SolarRadiationPressure";
+    }
+};
+
 static std::string stops(HighFidelitySRP &force) {
     try {
         force.Initialize();
@@ -457,6 +590,46 @@ START_TEST(what_is_missing_is_said) {
 }
 END_TEST
 
+// Copies know the force model of the script that their original is of, and who flies by them.
+START_TEST(messages_name_force_model_and_spacecraft) {
+    Sky sky;
+    Spacecraft a = make_craft("A", 0.3), b = make_craft("B", 1.1);
+    Spherical spherical;
+    ODEModel with("FM"), without("Other"), bare("Bare");
+    Real state[12] = {36607.4, -20921.7, 11.0, 1.5, 2.6, 0.01,
+                      -7000.0, 39000.0,  21.0, 0.1, 0.2, 0.3};
+    {
+        Force force = configured(), alone = configured();
+        with.forces = {&spherical, force.get()};
+        without.forces = {alone.get()};
+        bare.forces = {&spherical};
+        ConfigManager::Instance()->models = {&bare, &without, &with};
+        Force own = started(*force, sky, &sky.earth, {&a, &b}, {850.0, 212.5});
+        ck_assert(sky.messages.text == "");
+        ck_assert(own->GetDerivatives(state, 0.0, 1));
+        ck_assert_msg(sky.messages.text == "HighFidelitySRP: A, B: FM.SRP is On as well: the Sun "
+                                           "pushes twice\n",
+                      "%s", sky.messages.text.c_str());
+        // Not for every copy, and not where it is off.
+        Force again = started(*force, sky, &sky.earth, {&a}, {850.0});
+        ck_assert(again->GetDerivatives(state, 0.0, 1));
+        Force other = started(*alone, sky, &sky.earth, {&b}, {850.0});
+        ck_assert(other->GetDerivatives(state, 0.0, 1));
+        ck_assert(sky.messages.text.find("twice") == sky.messages.text.rfind("twice"));
+        alone->SetStringParameter("SRPObjFile", "nowhere.obj");
+        Force broken = clone(*alone);
+        broken->SetForceOrigin(&sky.earth);
+        broken->SetSolarSystem(&sky.system);
+        ck_assert(stops(*broken).find("nowhere.obj") != std::string::npos);
+        ck_assert(stops(*broken).find(" (force model Other)") != std::string::npos);
+        ConfigManager::Instance()->models.clear();
+    }
+    // At the end of the models.
+    ck_assert(sky.messages.text.find("HighFidelitySRP: A, B: ") != std::string::npos);
+    ck_assert(sky.messages.text.find("HighFidelitySRP: B: ") != std::string::npos);
+}
+END_TEST
+
 int main() {
     Suite *suite = suite_create("plugin_force");
     TCase *tcase = tcase_create("plugin_force");
@@ -465,12 +638,16 @@ int main() {
     tcase_add_test(tcase, both_orders_and_two_spacecraft);
     tcase_add_test(tcase, it_is_what_the_library_says);
     tcase_add_test(tcase, mass_follows_the_tank);
+    tcase_add_test(tcase, attitude_is_asked_for_when_it_can_change);
+    tcase_add_test(tcase, attitude_that_is_changed_is_noticed);
+    tcase_add_test(tcase, a_burn_changes_the_mass_at_each_stage);
     tcase_add_test(tcase, the_centre_is_any_body);
     tcase_add_test(tcase, bodies_cast_the_shadows_that_are_asked_for);
     tcase_add_test(tcase, partials_go_to_their_places);
     tcase_add_test(tcase, clones_trace_once);
     tcase_add_test(tcase, files_lie_beside_the_script);
     tcase_add_test(tcase, what_is_missing_is_said);
+    tcase_add_test(tcase, messages_name_force_model_and_spacecraft);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);
 }

@@ -78,9 +78,13 @@ START_TEST(words_are_those_that_are_known) {
     Settings s;
     set_text(s, field("SRPInterpolation"), "gmat_bilinear");
     assert_says(set_text(s, field("SRPInterpolation"), "gmat"), "SRPInterpolation: found 'gmat'");
-    assert_says(set_text(s, field("SRPMethod"), "Exact"),
-                "SRPMethod: found 'Exact', expected one of exact raycast raytrace");
+    assert_says(set_text(s, field("SRPMethod"), "Exactly"),
+                "SRPMethod: found 'Exactly', expected one of exact raycast raytrace");
     ck_assert(s.interpolation == "gmat_bilinear");
+    // As GMAT writes words of its own.
+    set_text(s, field("SRPInterpolation"), "Bicubic");
+    set_text(s, field("SRPMethod"), "RayTrace");
+    ck_assert(s.interpolation == "bicubic" && s.method == "raytrace");
     const std::vector<std::string> names = names_in(" {Earth,Luna ; Sun}\t");
     ck_assert_uint_eq(names.size(), 3);
     ck_assert(names[1] == "Luna");
@@ -280,22 +284,69 @@ START_TEST(errors_above_the_limit_are_told) {
 }
 END_TEST
 
+// A library is read for SRPMtlFile and for the model, and a force has many copies.
+START_TEST(things_are_said_once_and_of_whom) {
+    Heard heard;
+    std::ofstream("test_plugin_said.mtl") << "newmtl paint\nKd 0.5 0.5 0.5\n";
+    std::ofstream("test_plugin_said.obj") << "mtllib test_plugin_said.mtl\nusemtl paint\n"
+                                             "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    Settings s = box_wing();
+    s.obj_file = "test_plugin_said.obj";
+    s.mtl_file = "test_plugin_said.mtl";
+    {
+        SharedModel shared(heard.to());
+        shared.get(s);
+        ck_assert_msg(heard.text == "", "%s", heard.text.c_str()); // not known yet of whom
+        shared.notes().concern({"A", "B"});
+        const size_t first = heard.text.find("A, B: test_plugin_said.mtl:");
+        ck_assert_msg(first == 0, "%s", heard.text.c_str());
+        ck_assert(heard.text.find("test_plugin_said.mtl:", first + 10) == std::string::npos);
+        s.grid = 64; // another model of the same files
+        s.method = "raycast";
+        shared.get(s);
+        ck_assert(heard.text.find("test_plugin_said.mtl:", first + 10) == std::string::npos);
+        shared.notes().concern({"B", "C"});
+        shared.notes().add("later");
+        ck_assert(heard.text.find("A, B, C: later\n") != std::string::npos);
+    }
+    // Nobody came: said all the same, at the end or before an error.
+    heard.text.clear();
+    { SharedModel(heard.to()).notes().add("alone"); }
+    ck_assert(heard.text == "alone\n");
+    std::remove("test_plugin_said.obj");
+    std::remove("test_plugin_said.mtl");
+    ck_assert(list_of({"A", "B", "C", "D", "E", "F"}) == "A, B, C, D, E, ...");
+}
+END_TEST
+
+START_TEST(advice_is_of_fields) {
+    Heard heard;
+    std::ofstream("test_plugin_bare.obj") << "usemtl foil\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    Settings s = box_wing();
+    s.obj_file = "test_plugin_bare.obj";
+    assert_says(AreaModel(s, heard.to()),
+                "in the MTL file (rho_s, rho_d) or in one that SRPMtlFile "
+                "names");
+    std::remove("test_plugin_bare.obj");
+}
+END_TEST
+
 START_TEST(copies_share_until_something_changes) {
     Heard heard;
-    SharedModel shared;
+    SharedModel shared(heard.to());
     Settings s;
     write_table("test_plugin_shared.spo");
     s.table_file = "test_plugin_shared.spo";
-    const auto first = shared.get(s, heard.to());
+    const auto first = shared.get(s);
     s.scale = 1.5; // of the force, not of the model
-    ck_assert_ptr_eq(shared.get(s, heard.to()).get(), first.get());
+    ck_assert_ptr_eq(shared.get(s).get(), first.get());
     s.interpolation = "bilinear";
-    const auto second = shared.get(s, heard.to());
+    const auto second = shared.get(s);
     ck_assert_ptr_ne(second.get(), first.get());
     std::ofstream("test_plugin_shared.spo", std::ios::app) << "\n";
-    ck_assert_ptr_ne(shared.get(s, heard.to()).get(), second.get());
+    ck_assert_ptr_ne(shared.get(s).get(), second.get());
     std::remove("test_plugin_shared.spo");
-    assert_says(shared.get(s, heard.to()), "SRPTableFile");
+    assert_says(shared.get(s), "SRPTableFile");
 }
 END_TEST
 
@@ -312,6 +363,8 @@ int main() {
     tcase_add_test(tcase, bad_files_are_told_with_field_and_place);
     tcase_add_test(tcase, materials_of_a_file_win);
     tcase_add_test(tcase, errors_above_the_limit_are_told);
+    tcase_add_test(tcase, things_are_said_once_and_of_whom);
+    tcase_add_test(tcase, advice_is_of_fields);
     tcase_add_test(tcase, copies_share_until_something_changes);
     suite_add_tcase(suite, tcase);
     return run_suite(suite);

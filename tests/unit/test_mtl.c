@@ -142,9 +142,7 @@ START_TEST(files_without_materials_are_told) {
 }
 END_TEST
 
-#define LOOKS                                                                                      \
-    "expected three equal channels; give rho_s and rho_d in the file, or the material as "         \
-    "--material NAME=RHO_S,RHO_D"
+#define LOOKS "expected three equal channels; give rho_s and rho_d in the file"
 
 static const malformed BAD[] = {
     MALFORMED("share before any material", "rho_s 0.5\nnewmtl a\n", SRP_BAD_FORMAT,

@@ -369,6 +369,8 @@ START_TEST(the_ending_names_the_format) {
         snprintf(path, sizeof path, "dir.x/a%s", formats[k]->ending);
         ck_assert_ptr_eq(srp_table_format_of(path), formats[k]);
     }
+    ck_assert_ptr_eq(srp_table_format_of("TABLE.SPO"), &srp_table_format_spo);
+    ck_assert_ptr_eq(srp_table_format_of("a.Nc"), &srp_table_format_netcdf);
     ck_assert_ptr_null(srp_table_format_of("a.csv"));
     ck_assert_ptr_null(srp_table_format_of("nc"));
     ck_assert_ptr_null(srp_table_format_of(".nc"));

@@ -485,7 +485,7 @@ START_TEST(what_cannot_be_given_other_optics_is_refused) {
     srp_error error;
     assert_ok(srp_method_prepare(&srp_method_exact, scene, &params, &prepared, &error), error);
     assert_ok(srp_table_create(prepared, grid, false, &table, &error), error);
-    assert_unsupported(table, none, SRP_UNSUPPORTED, "make it with --basis");
+    assert_unsupported(table, none, SRP_UNSUPPORTED, "make it anew with them");
     srp_prepared_release(prepared);
     srp_table_destroy(table);
     srp_materials_destroy(materials);

@@ -172,6 +172,61 @@ START_TEST(units_are_converted) {
 }
 END_TEST
 
+/* ---- A |f| that its row belies -------------------------------------------------------------- */
+
+/* Warnings about the sixth column go to `user`. */
+static void keep_total(void *user, const srp_error *what) {
+    if (strstr(what->message, "sixth column") != NULL) {
+        *(srp_error *)user = *what;
+    }
+}
+
+/* What is said of GOOD with these units in place of its own and this first row. */
+static srp_error said_of_total(const char *units, const char *row) {
+    srp_error said = {.line = 0};
+    const srp_log log = {keep_total, &said};
+    char *some = changed("m^2 m^2 m^2", units);
+    char *at = strstr(some, " -180.00 -90.00 1 2 3\n");
+    ck_assert_ptr_nonnull(at);
+    size_t size = strlen(some) + 400;
+    char *text = calloc(size, 1);
+    ck_assert_ptr_nonnull(text);
+    snprintf(text, size, "%.*s -180.00 -90.00 %s\n", (int)(at - some), some, row);
+    /* The other rows have a sixth column, too, that is right. */
+    for (const char *line = strchr(at, '\n') + 1; *line != '\0'; line = strchr(line, '\n') + 1) {
+        double f[5];
+        ck_assert_int_eq(sscanf(line, "%lf %lf %lf %lf %lf", &f[0], &f[1], &f[2], &f[3], &f[4]), 5);
+        snprintf(text + strlen(text), size - strlen(text), "%g %g %g %g %g %.4f\n", f[0], f[1],
+                 f[2], f[3], f[4], sqrt(f[2] * f[2] + f[3] * f[3] + f[4] * f[4]));
+    }
+    srp_table *table = parse(text);
+    srp_table_inspect(table, "some.spo", &log, NULL);
+    srp_table_destroy(table);
+    free(text);
+    free(some);
+    return said;
+}
+
+START_TEST(a_total_that_its_row_belies_is_told) {
+    ck_assert_uint_eq(said_of_total("m^2 m^2 m^2 m^2", "1 2 3 3.7417").line, 0);
+    ck_assert_uint_eq(said_of_total("m^2 m^2 m^2 cm^2", "1 2 3 37417").line, 30);
+    ck_assert_uint_eq(said_of_total("m^2 m^2 m^2 stone", "1 2 3 99").line, 0);
+    ck_assert_uint_eq(said_of_total("m^2 m^2 m^2", "1 2 3 99").line, 0);
+    ck_assert_uint_eq(said_of_total("m^2 m^2 m^2 m^2", "1 2 3 none").line, 0);
+    const srp_error said = said_of_total("m^2 m^2 m^2 m^2", "1 2 33 3.7417");
+    ck_assert_str_eq(said.file, "some.spo");
+    ck_assert_uint_eq(said.line, 25);
+    ck_assert_ptr_nonnull(strstr(said.message, "a |f| of 3.7417 m^2, which is 29.3 m^2 from"));
+    /* GOOD has none. */
+    srp_error none = {.line = 0};
+    const srp_log log = {keep_total, &none};
+    srp_table *table = parse(GOOD);
+    srp_table_inspect(table, "some.spo", &log, NULL);
+    ck_assert_uint_eq(none.line, 0);
+    srp_table_destroy(table);
+}
+END_TEST
+
 /* ---- What is refused ------------------------------------------------------------------------ */
 
 START_TEST(malformed_files_are_refused_with_their_place) {
@@ -694,6 +749,7 @@ int main(void) {
     tcase_add_test(tcase, whatever_gmat_takes_is_taken);
     tcase_add_test(tcase, line_ends_of_every_system_are_taken);
     tcase_add_test(tcase, units_are_converted);
+    tcase_add_test(tcase, a_total_that_its_row_belies_is_told);
     tcase_add_test(tcase, malformed_files_are_refused_with_their_place);
     tcase_add_test(tcase, columns_are_named);
     tcase_add_test(tcase, forces_out_of_all_range_are_refused);

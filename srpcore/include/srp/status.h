@@ -33,6 +33,16 @@ SRP_BEGIN_DECLS
 typedef enum srp_status { SRP_STATUS_LIST(SRP_STATUS_ENUM) } srp_status;
 #undef SRP_STATUS_ENUM
 
+/* What a caller can state to get past a failure. The library does not know how: a program adds
+ * where that goes, an option, an entry of a file, a field. */
+typedef enum srp_remedy {
+    SRP_REMEDY_NONE,
+    SRP_REMEDY_OPTICS,     /* optics of the material: the message ends `give ... in the MTL file` */
+    SRP_REMEDY_MASS,       /* the mass of the spacecraft */
+    SRP_REMEDY_BASIS,      /* that a table keeps sums per material */
+    SRP_REMEDY_KEEP_BOUNCE /* that reflected light stays as it was traced */
+} srp_remedy;
+
 /* Detail of a failure. Plain data, no ownership: put one on the stack. */
 typedef struct srp_error {
     srp_status status;
@@ -40,6 +50,7 @@ typedef struct srp_error {
     size_t line;       /* 1-based, 0 = does not apply */
     size_t column;     /* 1-based byte in the line, 0 = does not apply */
     char message[768]; /* one sentence: what was found and what was expected */
+    srp_remedy remedy;
 } srp_error;
 
 /* Warnings on the way in: called once per message, from the calling thread. A NULL srp_log, or one

@@ -172,7 +172,8 @@ typedef struct srp_table_report {
 } srp_table_report;
 
 /* Looks at a complete table. What an interpolant must make up for is sent to `log` (may be NULL) as
- * warnings about the file `name`: spreads above 1e-9 of the largest |f|, and rounding. */
+ * warnings about the file `name`: spreads above 1e-9 of the largest |f|, rounding, and a column of
+ * |f| in a .spo that its components belie. */
 SRP_API void srp_table_inspect(const srp_table *table, const char *name, const srp_log *log,
                                srp_table_report *out);
 
@@ -198,7 +199,7 @@ SRP_API extern const srp_table_format srp_table_format_netcdf;
 SRP_API extern const srp_table_format srp_table_format_spo;
 SRP_API extern const srp_table_format srp_table_format_txt;
 SRP_API const srp_table_format *const *srp_table_format_list(size_t *count);
-/* The format whose ending `path` has, NULL when none. */
+/* The format whose ending `path` has, in small or capital letters; NULL when none. */
 SRP_API const srp_table_format *srp_table_format_of(const char *path);
 
 /*

@@ -34,6 +34,27 @@ FileManager *FileManager::Instance() {
     return &manager;
 }
 
+ConfigManager *ConfigManager::Instance() {
+    static ConfigManager manager;
+    return &manager;
+}
+
+const StringArray &ConfigManager::GetListOfItems(UnsignedInt type) {
+    list.clear();
+    for (const ODEModel *one : models) {
+        if (type == Gmat::ODE_MODEL) {
+            list.push_back(one->GetName());
+        }
+    }
+    return list;
+}
+
+GmatBase *ConfigManager::GetItem(const std::string &name) {
+    const auto found = std::find_if(models.begin(), models.end(),
+                                    [&](const ODEModel *one) { return one->GetName() == name; });
+    return found == models.end() ? nullptr : *found;
+}
+
 // ---- Parameters ---------------------------------------------------------------------------------
 
 const std::string GmatBase::PARAM_TYPE_STRING[] = {"Integer", "Real", "String", "Boolean",

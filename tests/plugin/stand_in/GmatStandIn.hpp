@@ -5,6 +5,7 @@
 #ifndef SRP_TESTS_GMAT_STAND_IN_HPP
 #define SRP_TESTS_GMAT_STAND_IN_HPP
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -17,7 +18,7 @@ typedef std::vector<Integer> IntegerArray;
 typedef std::vector<std::string> StringArray;
 
 namespace Gmat {
-const UnsignedInt PHYSICAL_MODEL = 112;
+const UnsignedInt PHYSICAL_MODEL = 112, COORDINATE_SYSTEM = 121, ATTITUDE = 129, ODE_MODEL = 130;
 enum ParameterType { INTEGER_TYPE, REAL_TYPE, STRING_TYPE, BOOLEAN_TYPE, FILENAME_TYPE };
 enum StateElementId {
     CARTESIAN_STATE = 3700,
@@ -90,6 +91,15 @@ class GmatBase {
     virtual bool RenameRefObject(const UnsignedInt, const std::string &, const std::string &) = 0;
     std::string GetName() const {
         return instanceName;
+    }
+    virtual std::string GetTypeName() const {
+        return typeName;
+    }
+    virtual GmatBase *GetRefObject(const UnsignedInt, const std::string &) {
+        return nullptr;
+    }
+    virtual std::string GetRefObjectName(const UnsignedInt) const {
+        return "";
     }
 
     virtual std::string GetParameterText(const Integer id) const;
@@ -167,9 +177,63 @@ class GmatState {
     Real values[6] = {0, 0, 0, 0, 0, 0};
 };
 
+class CoordinateSystem : public GmatBase {
+  public:
+    CoordinateSystem() : GmatBase(Gmat::COORDINATE_SYSTEM, "CoordinateSystem", "EarthMJ2000Eq") {
+    }
+    GmatBase *Clone() const {
+        return new CoordinateSystem(*this);
+    }
+    bool HasLocalClones() {
+        return false;
+    }
+    bool RenameRefObject(const UnsignedInt, const std::string &, const std::string &) {
+        return true;
+    }
+    bool AreAxesOfType(const std::string &type) const {
+        return std::find(axes.begin(), axes.end(), type) != axes.end();
+    }
+
+    StringArray axes{"InertialAxes", "MJ2000EqAxes"};
+};
+
+// Of any kind, which decides nothing here: a test says what it is.
+class Attitude : public GmatBase {
+  public:
+    explicit Attitude(const std::string &kind) : GmatBase(Gmat::ATTITUDE, kind, "") {
+    }
+    GmatBase *Clone() const {
+        return new Attitude(*this);
+    }
+    bool HasLocalClones() {
+        return false;
+    }
+    bool RenameRefObject(const UnsignedInt, const std::string &, const std::string &) {
+        return true;
+    }
+    std::string GetRefObjectName(const UnsignedInt type) const {
+        return type == Gmat::COORDINATE_SYSTEM ? system.GetName() : "";
+    }
+    GmatBase *GetRefObject(const UnsignedInt type, const std::string &name) {
+        return type == Gmat::COORDINATE_SYSTEM && name == system.GetName() ? &system : nullptr;
+    }
+    Real GetRealParameter(const std::string &label) const {
+        return real.at(label);
+    }
+    void BecomeKind(const std::string &kind) {
+        typeName = kind;
+    }
+
+    CoordinateSystem system;
+    std::map<std::string, Real> real; // AngularVelocityX to Z [deg/s]
+};
+
 class Spacecraft : public GmatBase {
   public:
     explicit Spacecraft(const std::string &name) : GmatBase(0, "Spacecraft", name) {
+    }
+    GmatBase *GetRefObject(const UnsignedInt type, const std::string &) {
+        return type == Gmat::ATTITUDE ? &kind : nullptr;
     }
     GmatBase *Clone() const {
         return new Spacecraft(*this);
@@ -182,6 +246,7 @@ class Spacecraft : public GmatBase {
     }
     const Rmatrix33 &GetAttitude(Real a1mjd) {
         asked_at = a1mjd;
+        ++asked;
         return attitude;
     }
     Real GetEpoch() const {
@@ -197,8 +262,10 @@ class Spacecraft : public GmatBase {
         return whole.at(label);
     }
 
+    Attitude kind{"NadirPointing"};
     Rmatrix33 attitude;
     Real epoch = 0.0, asked_at = 0.0;
+    int asked = 0; // how often for its attitude
     GmatState state;
     std::map<std::string, Real> real;
     std::map<std::string, Integer> whole;
@@ -279,6 +346,41 @@ class PhysicalModel : public GmatBase {
     bool isConservative;
     std::vector<GmatBase *> scObjs;
     enum { PhysicalModelParamCount = GmatBaseParamCount + 4 };
+};
+
+class ODEModel : public PhysicalModel {
+  public:
+    explicit ODEModel(const std::string &name)
+        : PhysicalModel(Gmat::ODE_MODEL, "ForceModel", name) {
+    }
+    GmatBase *Clone() const {
+        return new ODEModel(*this);
+    }
+    bool HasLocalClones() {
+        return false;
+    }
+    bool RenameRefObject(const UnsignedInt, const std::string &, const std::string &) {
+        return true;
+    }
+    Integer GetNumForces() {
+        return Integer(forces.size());
+    }
+    PhysicalModel *GetForce(Integer i) const {
+        return forces[size_t(i)];
+    }
+    std::vector<PhysicalModel *> forces;
+};
+
+// The objects of the script.
+class ConfigManager {
+  public:
+    static ConfigManager *Instance();
+    const StringArray &GetListOfItems(UnsignedInt type);
+    GmatBase *GetItem(const std::string &name);
+    std::vector<ODEModel *> models;
+
+  private:
+    StringArray list;
 };
 
 class Factory {
