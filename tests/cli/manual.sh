@@ -13,7 +13,7 @@ if command -v mandoc > /dev/null; then
     mandoc -T ascii srp.1 | sed 's/.\x08//g' > page || fail 'mandoc cannot format the page'
 else
     skip 'no mandoc: the man page is checked in its source only'
-    sed 's/\\-/-/g; s/Fl -/--/; s/Fl /-/' srp.1 > page
+    sed 's/^\.Sh //; s/\\-/-/g; s/Fl -/--/; s/Fl /-/' srp.1 > page
 fi
 
 for command in info force table reoptic convert plot picture compare fit-nplate; do
