@@ -42,7 +42,7 @@ typedef struct table_job {
     srp_cache *cache; /* NULL: none asked for, or it cannot be used */
 } table_job;
 
-/* Whether the step is for us to choose; such a run keeps nothing when it is interrupted. */
+/* Whether the step is for us to choose; such a run leaves no partial file. */
 static bool chooses_step(const table_job *job) {
     return cli_is_given(job->options->given, TABLE_MAX_ERROR);
 }
@@ -189,9 +189,9 @@ static void exchange_nodes(table_job *job) {
     if (job->cache == NULL) {
         return;
     }
+    /* One that cannot be written may still have given nodes. */
     if (srp_cache_exchange(job->cache, job->loaded.prepared, job->table, NULL, &error) != SRP_OK) {
         give_cache_up(job, &error);
-        return;
     }
     size_t after = srp_table_filled_count(job->table);
     if (after > before) {
@@ -200,25 +200,42 @@ static void exchange_nodes(table_job *job) {
     }
 }
 
+/* Has what is new remembered, while the table is being filled; whether that could be done. */
+static bool keep_nodes(table_job *job, const srp_table *table) {
+    srp_error error;
+    if (job->cache == NULL) {
+        return false;
+    }
+    if (srp_cache_keep(job->cache, job->loaded.prepared, table, &error) != SRP_OK) {
+        cli_progress_clear(&job->progress);
+        give_cache_up(job, &error);
+    }
+    return job->cache != NULL;
+}
+
 /* ---- computing ---- */
 
 static bool save_partial(table_job *job, const srp_table *table, srp_error *error) {
     return srp_table_write(table, &srp_table_format_netcdf, job->partial, error) == SRP_OK;
 }
 
+static void save(table_job *job, const srp_table *table) {
+    srp_error error;
+    if (!chooses_step(job) && !save_partial(job, table, &error) && !job->save_failed) {
+        cli_progress_clear(&job->progress);
+        cli_output_error(&error);
+        cli_say("warning: the run goes on, but could not be resumed after an interruption");
+        job->save_failed = true;
+    }
+    (void)keep_nodes(job, table);
+    job->saved = cli_system_seconds();
+}
+
 /* Shown in nodes, as everywhere: several of them may share a direction. */
 static bool report(void *user, const srp_table *table, size_t done, size_t total) {
     table_job *job = user;
-    double now = cli_system_seconds();
-    if (now - job->saved >= CHECKPOINT_SECONDS && done < total && !chooses_step(job)) {
-        srp_error error;
-        if (!save_partial(job, table, &error) && !job->save_failed) {
-            cli_progress_clear(&job->progress);
-            cli_output_error(&error);
-            cli_say("warning: the run goes on, but could not be resumed after an interruption");
-            job->save_failed = true;
-        }
-        job->saved = cli_system_seconds();
+    if (cli_system_seconds() - job->saved >= CHECKPOINT_SECONDS && done < total) {
+        save(job, table);
     }
     cli_progress_show(&job->progress, srp_table_filled_count(table),
                       srp_grid_node_count(job->grid));
@@ -229,7 +246,15 @@ static bool report(void *user, const srp_table *table, size_t done, size_t total
 static void leave_partial(table_job *job) {
     srp_error error;
     size_t filled = srp_table_filled_count(job->table);
-    if (filled == 0 || chooses_step(job)) {
+    if (filled == 0) {
+        return;
+    }
+    bool remembered = keep_nodes(job, job->table);
+    if (chooses_step(job)) {
+        if (remembered) {
+            cli_say("%zu of %zu nodes of this step are in the cache; to go on:\n  %s", filled,
+                    srp_grid_node_count(job->grid), job->command_line);
+        }
         return;
     }
     if (!save_partial(job, job->table, &error)) {
@@ -438,9 +463,9 @@ const cli_command cli_command_table = {
         "Everything that can be checked is checked before the computing begins. A run that is "
         "interrupted (Ctrl-C) leaves its nodes in a file FIRST_OUTPUT.partial, and so does every "
         "half minute of a long one; the same command again goes on from there and gives the same "
-        "table. A run that chooses its step (--max-error) begins anew. With --cache a run takes "
-        "the nodes "
-        "that earlier runs have remembered, and gives the same table.\n\n"
+        "table. With --cache a run takes the nodes that earlier runs have remembered, and gives "
+        "the same table; its own are remembered at these times and in the end. A run that chooses "
+        "its step (--max-error) leaves no such file and goes on only with --cache.\n\n"
         "Between nodes a table is interpolated. --check and --max-error compare that with what the "
         "method gives in other directions.",
     .examples = "srp table box-wing.obj -o box-wing.nc -o box-wing.spo\n"

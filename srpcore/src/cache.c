@@ -330,7 +330,8 @@ static srp_status set_aside(const srp_cache *cache, const char *path, const char
     return status;
 }
 
-/* What the file holds; *out stays as it is where there is none, or none that is of use. */
+/* What the file holds; *out stays as it is where there is none, or none that is of use: that is set
+ * aside, or without a key left, and its status returned. */
 static srp_status read_kept(const srp_cache *cache, const srp_cache_job *job, const char *path,
                             const char *key, srp_table **out, srp_error *error) {
     srp_table *table = NULL;
@@ -355,7 +356,7 @@ static srp_status read_kept(const srp_cache *cache, const srp_cache_job *job, co
         return status;
     default:
         srp_table_destroy(table);
-        return set_aside(cache, path, key, &why, error);
+        return key != NULL ? set_aside(cache, path, key, &why, error) : status;
     }
 }
 
@@ -369,11 +370,14 @@ static srp_status exchange(const srp_cache *cache, const srp_cache_job *job, srp
     if (status != SRP_OK) {
         return status;
     }
-    status = remove_all(cache, true, &drafts, error);
-    if (status == SRP_OK) {
-        status = read_kept(cache, job, path, key, kept, error);
+    status = read_kept(cache, job, path, key, kept, error);
+    if (status != SRP_OK) {
+        free(path);
+        return status;
     }
-    if (status == SRP_OK && job->join(job->user, *kept) > 0) {
+    bool gained = job->join(job->user, *kept) > 0;
+    status = remove_all(cache, true, &drafts, error);
+    if (status == SRP_OK && gained) {
         status = srp_table_write(*kept, &srp_table_format_netcdf, path, error);
         if (status == SRP_OK) {
             status = prune(cache, key, error);
@@ -385,12 +389,35 @@ static srp_status exchange(const srp_cache *cache, const srp_cache_job *job, srp
     return status;
 }
 
+/* Takes nodes without the lock: files are replaced at once, so that what is read is whole. Whether
+ * all nodes are there: then there is nothing to be kept, either. */
+static bool look(const srp_cache *cache, const srp_cache_job *job) {
+    char key[KEY_SIZE + 1], *path = NULL;
+    srp_table *kept = NULL;
+    bool all = false;
+    if (srp_table_create(job->prepared, job->grid, job->with_basis, &kept, NULL) != SRP_OK) {
+        return false;
+    }
+    srp_table_key(kept, key);
+    if (path_of(cache, key, ENDING, &path, NULL) == SRP_OK &&
+        read_kept(cache, job, path, NULL, &kept, NULL) == SRP_OK) {
+        all = srp_table_is_complete(kept);
+        (void)job->join(job->user, kept);
+    }
+    free(path);
+    srp_table_destroy(kept);
+    return all;
+}
+
 srp_status srp_cache_run(srp_cache *cache, const srp_cache_job *job, srp_error *error) {
     srp_table *kept;
     int lock;
     srp_status status = take_lock(cache, job->wait, &lock, error);
-    if (status != SRP_OK || lock < 0) {
-        return status;
+    if (status != SRP_OK) {
+        return status == SRP_IO && job->looks_anyway && look(cache, job) ? SRP_OK : status;
+    }
+    if (lock < 0) {
+        return SRP_OK;
     }
     status = srp_table_create(job->prepared, job->grid, job->with_basis, &kept, error);
     if (status == SRP_OK) {
@@ -413,6 +440,11 @@ static size_t join_table(void *user, srp_table *kept) {
     return gained;
 }
 
+static size_t give_table(void *user, srp_table *kept) {
+    const srp_table *const *table = user;
+    return srp_table_take(kept, *table);
+}
+
 srp_status srp_cache_exchange(srp_cache *cache, const srp_prepared *prepared, srp_table *table,
                               size_t *found, srp_error *error) {
     bool with_basis = table->info.has_basis;
@@ -421,10 +453,21 @@ srp_status srp_cache_exchange(srp_cache *cache, const srp_prepared *prepared, sr
         return status;
     }
     table_join join = {table, 0};
-    srp_cache_job job = {prepared, table->grid, with_basis, true, join_table, &join};
+    srp_cache_job job = {prepared, table->grid, with_basis, true, true, join_table, &join};
     status = srp_cache_run(cache, &job, error);
     if (status == SRP_OK && found != NULL) {
         *found = join.found;
     }
     return status;
+}
+
+srp_status srp_cache_keep(srp_cache *cache, const srp_prepared *prepared, const srp_table *table,
+                          srp_error *error) {
+    bool with_basis = table->info.has_basis;
+    srp_status status = srp_table_check_origin(table, prepared, table->grid, with_basis, error);
+    if (status != SRP_OK) {
+        return status;
+    }
+    srp_cache_job job = {prepared, table->grid, with_basis, true, false, give_table, &table};
+    return srp_cache_run(cache, &job, error);
 }

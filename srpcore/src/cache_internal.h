@@ -15,8 +15,9 @@ typedef struct srp_cache_job {
     bool with_basis;
     bool wait; /* for the lock, as long as the cache's parameters say; else a cache in use is left
                   alone, which is no failure */
-    /* Called once, under the lock of the directory, with what the cache holds: gives nodes to
-     * `kept`, takes nodes from it, and returns how many `kept` has gained. It is written if any. */
+    bool looks_anyway; /* takes nodes where there is no lock to be had, before it fails */
+    /* Called at most once, with what the cache holds: gives nodes to `kept`, takes nodes from it,
+     * and returns how many `kept` has gained. It is written if any, under the lock. */
     size_t (*join)(void *user, srp_table *kept);
     void *user;
 } srp_cache_job;

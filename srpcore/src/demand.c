@@ -71,7 +71,9 @@ static size_t join(void *user, srp_table *kept) {
 
 /* Exchanges nodes with the cache; a cache that is in use is passed by unless we `wait`. */
 static srp_status exchange(srp_demand *demand, bool wait, srp_error *error) {
-    srp_cache_job job = {demand->prepared, demand->table->grid, false, wait, join, demand};
+    /* Whoever knows nothing yet takes what can be read of a cache that cannot be written. */
+    const bool looks = srp_demand_count(demand).ready == 0;
+    srp_cache_job job = {demand->prepared, demand->table->grid, false, wait, looks, join, demand};
     srp_status status = srp_cache_run(demand->cache, &job, error);
     srp_platform_monitor_enter(demand->monitor);
     demand->saved = srp_platform_seconds();

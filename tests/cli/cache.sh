@@ -56,6 +56,39 @@ prints '6 files removed'
 expect 0 cache list
 prints '0 files, '
 
+# A cache that cannot be written is read; a directory in the place of its lock stops root as well.
+expect 0 table "$wing" -o j.txt --mass 850 --step 30 --cache
+expect 0 table "$wing" -o k.nc --step 30 --cache --basis
+rm "$kept/lock"
+mkdir "$kept/lock"
+expect 0 table "$wing" -o l.txt --mass 850 --step 30 --cache
+says '91 of 91 nodes come from the cache'
+says_not 'warning'
+check 'the same table from a cache that cannot be written' cmp -s plain.txt l.txt
+expect 0 table "$wing" -o m.txt --mass 850 --step 45 --cache
+says 'warning: the run goes on without the cache'
+[ "$(grep -c warning ../log/err)" -eq 1 ] || fail 'more than one warning'
+rmdir "$kept/lock"
+
+# What is interrupted is remembered, whatever the next run calls its output, and where the step is
+# for srp to choose. The work grows until the signal comes in time.
+interrupt() {
+    last="timeout -s INT 1.5 srp table $* ${work[*]}"
+    timeout --foreground --preserve-status -s INT 1.5 "$SRP" table "$@" "${work[@]}" \
+        > ../log/out 2> ../log/err
+    grep -q 'to go on:' ../log/err
+}
+for grid in 512 2048 8192 16384 32768; do
+    work=("$wing" --method raycast --grid "$grid" --cache)
+    rm -f n.nc n.nc.partial p.nc
+    interrupt -o n.nc --step=15 && interrupt -o p.nc --max-error=1e-9 --check=2 && break
+done
+says 'nodes of this step are in the cache; to go on:'
+check 'a partial file where the step is chosen' test ! -e p.nc.partial
+interrupt -o o.nc --step=15
+says 'of 325 nodes come from the cache'
+rm -f o.nc.partial
+
 echo plain > file
 XDG_CACHE_HOME=$PWD/file/below
 expect 0 table "$wing" -o f.txt --mass 850 --step 30 --cache

@@ -355,6 +355,106 @@ START_TEST(a_cache_that_is_free_again_is_used) {
 }
 END_TEST
 
+/* A directory in the place of its lock stops root as well: nobody can write the cache. */
+static void forbid_writing(void) {
+    char path[160];
+    snprintf(path, sizeof path, "%s/lock", cache_test.directory);
+    ck_assert_int_eq(unlink(path), 0);
+    ck_assert_int_eq(mkdir(path, 0700), 0);
+}
+
+START_TEST(a_cache_that_cannot_be_written_is_read) {
+    counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
+    visit(&fixture, 0, 3);
+    forbid_writing();
+    srp_cache_params params = cache_params();
+    params.flush_nodes = 1;
+    srp_cache *cache = open_cache(&params);
+    srp_demand *demand = make_demand(&fixture, cache);
+    ck_assert_uint_eq(srp_demand_count(demand).ready, 3 * 5 + 2);
+    need_columns(demand, 0, 13);
+    ck_assert_uint_eq(srp_demand_count(demand).computed, UNIQUE - 3 * 5 - 2);
+    assert_is_full(&fixture, demand);
+    srp_demand_destroy(demand);
+    ck_assert_int_eq(cache_test.messages, 1);
+    ck_assert_ptr_nonnull(strstr(cache_test.last_message, "is not kept until that is mended"));
+    srp_cache_close(cache);
+    counting_end(&fixture);
+}
+END_TEST
+
+/* Nothing is missing, so that nothing is to be told. */
+START_TEST(a_full_table_that_cannot_be_written_is_as_good) {
+    counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
+    visit(&fixture, 0, 13);
+    forbid_writing();
+    ck_assert_uint_eq(visit(&fixture, 0, 13), 0);
+    ck_assert_int_eq(cache_test.messages, 0);
+    counting_end(&fixture);
+}
+END_TEST
+
+/* Damage there stays for those who may write, and shows in no number. */
+START_TEST(a_damaged_file_that_cannot_be_written_is_passed_by) {
+    counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
+    visit(&fixture, 0, 13);
+    forbid_writing();
+    char path[160];
+    only_table(path);
+    FILE *file = fopen(path, "r+");
+    ck_assert_int_eq(fseek(file, 400, SEEK_SET), 0);
+    ck_assert_int_eq(fputc('x', file), 'x');
+    ck_assert_int_eq(fclose(file), 0);
+    ck_assert_uint_eq(visit(&fixture, 0, 13), UNIQUE);
+    ck_assert_int_eq(cache_test.messages, 1);
+    ck_assert_int_eq(access(path, F_OK), 0);
+    counting_end(&fixture);
+}
+END_TEST
+
+START_TEST(a_directory_without_permission_is_read) {
+    if (geteuid() == 0) {
+        printf("skipped: root may write any directory\n");
+        return;
+    }
+    counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
+    visit(&fixture, 0, 3);
+    char path[160];
+    snprintf(path, sizeof path, "%s/lock", cache_test.directory);
+    ck_assert_int_eq(unlink(path), 0);
+    ck_assert_int_eq(chmod(cache_test.directory, 0500), 0);
+    ck_assert_uint_eq(visit(&fixture, 0, 13), UNIQUE - 3 * 5 - 2);
+    ck_assert_int_eq(cache_test.messages, 1);
+    ck_assert_int_eq(chmod(cache_test.directory, 0700), 0);
+    counting_end(&fixture);
+}
+END_TEST
+
+/* What a table holds is kept, what the cache holds is not taken. */
+START_TEST(a_table_that_is_being_filled_can_be_kept) {
+    counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
+    visit(&fixture, 0, 3);
+    const srp_cache_params params = cache_params();
+    srp_cache *cache = open_cache(&params);
+    srp_demand *demand = make_demand(&fixture, NULL);
+    srp_table *part = NULL;
+    srp_error error;
+    need_columns(demand, 2, 6);
+    assert_ok(srp_demand_copy(demand, &part, &error), error);
+    size_t filled = srp_table_filled_count(part);
+    assert_ok(srp_cache_keep(cache, fixture.prepared, part, &error), error);
+    ck_assert_uint_eq(srp_table_filled_count(part), filled);
+    ck_assert_uint_eq(visit(&fixture, 0, 6), 0);
+    forbid_writing();
+    ck_assert_int_eq(srp_cache_keep(cache, fixture.prepared, part, &error), SRP_IO);
+    ck_assert_int_eq(cache_test.messages, 0);
+    srp_table_destroy(part);
+    srp_demand_destroy(demand);
+    srp_cache_close(cache);
+    counting_end(&fixture);
+}
+END_TEST
+
 /* ---- Its size, and what is in it ------------------------------------------------------------ */
 
 /* Whatever the limit, the table in use stays. */
@@ -489,6 +589,11 @@ int main(void) {
     tcase_add_test(tcase, a_full_disk_costs_one_message);
     tcase_add_test(tcase, a_cache_in_use_is_passed_by);
     tcase_add_test(tcase, a_cache_that_is_free_again_is_used);
+    tcase_add_test(tcase, a_cache_that_cannot_be_written_is_read);
+    tcase_add_test(tcase, a_full_table_that_cannot_be_written_is_as_good);
+    tcase_add_test(tcase, a_damaged_file_that_cannot_be_written_is_passed_by);
+    tcase_add_test(tcase, a_directory_without_permission_is_read);
+    tcase_add_test(tcase, a_table_that_is_being_filled_can_be_kept);
     tcase_add_test(tcase, a_table_above_the_limit_is_kept);
     tcase_add_test(tcase, it_stays_below_its_limit);
     tcase_add_test(tcase, clearing_removes_tables_and_nothing_else);

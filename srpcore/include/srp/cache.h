@@ -57,10 +57,18 @@ SRP_API const char *srp_cache_directory(const srp_cache *cache);
  * Gives `table`, made for `prepared`, the nodes that the cache has and it lacks, and the cache
  * those that it lacks. Nodes are the same to the bit wherever they come from. *found (may be NULL)
  * counts the directions that came from the cache. SRP_MISMATCH (`table` is not of `prepared`),
- * SRP_IO, SRP_NO_MEMORY; `table` is then as good as before, and may have gained nodes. Any thread.
+ * SRP_IO, SRP_NO_MEMORY; `table` is then as good as before, and may have gained nodes: a cache that
+ * can be read and not written gives what it has, and SRP_IO unless that is all. Any thread.
  */
 SRP_API SRP_CHECK srp_status srp_cache_exchange(srp_cache *cache, const srp_prepared *prepared,
                                                 srp_table *table, size_t *found, srp_error *error);
+
+/*
+ * The half of it that changes no table: for one that is being filled, from the callback of its
+ * progress. The same statuses. Any thread.
+ */
+SRP_API SRP_CHECK srp_status srp_cache_keep(srp_cache *cache, const srp_prepared *prepared,
+                                            const srp_table *table, srp_error *error);
 
 typedef struct srp_cache_entry {
     char name[64];   /* of the file in the directory */
