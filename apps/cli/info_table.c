@@ -185,7 +185,11 @@ static void print_materials(const srp_table *table) {
 /* What the library finds odd, as a list. */
 static void print_finding(void *user, const srp_error *what) {
     bool *any = user;
-    printf("%s- %s\n", *any ? "" : "\nFindings:\n", what->message);
+    fputs(*any ? "- " : "\nFindings:\n- ", stdout);
+    if (what->line > 0) {
+        printf("line %zu: ", (size_t)what->line);
+    }
+    puts(what->message);
     *any = true;
 }
 

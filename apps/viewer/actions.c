@@ -203,12 +203,13 @@ static void clear_arrows(viewer *v, GVariant *parameter) {
 /* ---- looks ---- */
 
 static void set_colouring(viewer *v, GVariant *parameter) {
-    static const char *const names[] = {
-        [COLOUR_MATERIAL] = "material", [COLOUR_INCIDENCE] = "incidence", [COLOUR_FORCE] = "force"};
+    static const char *const names[] = {[SRP_RENDER_MATERIAL] = "material",
+                                        [SRP_RENDER_INCIDENCE] = "incidence",
+                                        [SRP_RENDER_FORCE] = "force"};
     const char *text = g_variant_get_string(parameter, NULL);
     for (size_t i = 0; i < G_N_ELEMENTS(names); ++i) {
         if (strcmp(text, names[i]) == 0) {
-            v->colouring = (viewer_colouring)i;
+            v->colouring = (srp_render_colouring)i;
             viewer_tell(v, CHANGED_VIEW);
             return;
         }

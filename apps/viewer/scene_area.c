@@ -163,11 +163,9 @@ static void draw_scene(area *a) {
                      &a->look);
     srp_render_view *view = &a->look.view;
     view->shadows = v->shadows;
-    view->colouring = v->colouring == COLOUR_INCIDENCE ? SRP_RENDER_INCIDENCE
-                      : v->colouring == COLOUR_FORCE   ? SRP_RENDER_FORCE
-                                                       : SRP_RENDER_MATERIAL;
+    view->colouring = v->colouring;
     view->value_low = 0.0;
-    view->value_high = v->colouring == COLOUR_FORCE ? 2.0 : 1.0;
+    view->value_high = v->colouring == SRP_RENDER_FORCE ? 2.0 : 1.0;
     view->background = background();
     a->coarse = is_large(a) && (a->moving || (view->shadows && !bring_light(a, view)));
     view->coarse = a->coarse;
@@ -328,14 +326,14 @@ static void draw_marks(GtkDrawingArea *widget, cairo_t *cr, int width, int heigh
     if (a->coarse) {
         draw_coarse_note(GTK_WIDGET(widget), cr, width, height);
     }
-    if (a->v->colouring == COLOUR_MATERIAL) {
+    if (a->v->colouring == SRP_RENDER_MATERIAL) {
         draw_material_names(a, GTK_WIDGET(widget), cr, height);
     } else {
         map_colours(&a->look, colours);
         draw_bar(GTK_WIDGET(widget), cr, 24.0,
-                 a->v->colouring == COLOUR_FORCE ? "force per lit area and pressure"
-                                                 : "cosine of the incidence",
-                 "0", a->v->colouring == COLOUR_FORCE ? "2" : "1", colours);
+                 a->v->colouring == SRP_RENDER_FORCE ? "force per lit area and pressure"
+                                                     : "cosine of the incidence",
+                 "0", a->v->colouring == SRP_RENDER_FORCE ? "2" : "1", colours);
     }
     if (viewer_session_arrow_range(a->v->session, &least, &largest)) {
         char low[32], high[32];

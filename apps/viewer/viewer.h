@@ -10,6 +10,8 @@
 #include "session.h"
 #include "worker.h"
 
+#include <srp/render.h>
+
 #include <gtk/gtk.h>
 
 /* What has changed; bits. */
@@ -28,8 +30,6 @@ enum {
     CHANGED_MESSAGE = 1 << 11,
     CHANGED_ALL = (1 << 12) - 1
 };
-
-typedef enum viewer_colouring { COLOUR_MATERIAL, COLOUR_INCIDENCE, COLOUR_FORCE } viewer_colouring;
 
 /* The eye, in axes of the room: the Sun is on +X, +Z is up. */
 typedef struct viewer_camera {
@@ -51,7 +51,7 @@ struct viewer {
     viewer_requests requests;
     /* How things are shown. */
     viewer_camera camera;
-    viewer_colouring colouring;
+    srp_render_colouring colouring; /* not SRP_RENDER_VALUES */
     bool shadows;
     int table_shown;         /* index of the table on the graphics tab, -1: none */
     int compared[2];         /* -1: none */

@@ -179,6 +179,9 @@ awk 'function turn(x) { return x ~ /^-/ ? substr(x, 2) : "-" x }
      NF >= 5 && $1 + 0 == $1 { $3 = turn($3); $4 = turn($4); $5 = turn($5) } { print }' t.spo > odd.spo
 expect 0 info odd.spo
 prints 'light pulls from'
+awk '$1 == "-180.00" && $2 == "10.00" { $6 = 99 } { print }' t.spo > column.spo
+expect 0 info column.spo
+grep -Eq '^- line [0-9]+: the sixth column' ../log/out || fail 'the line of a |f| that is belied'
 expect 2 info t.nc t.spo
 says 't.nc is a table and stands alone'
 expect 2 info t.nc --unit mm
