@@ -21,7 +21,7 @@ enum { BAD_USAGE = 2, MACHINE_FAILED = 3 };
 typedef struct start {
     viewer v;
     char **operands;
-    char *tab, *screenshot, *size, *actions;
+    char *model, *tab, *screenshot, *size, *actions;
     gboolean list, fresh, remember;
 } start;
 
@@ -110,8 +110,8 @@ static void on_activate(GtkApplication *application, gpointer user) {
     }
     viewer_tell(v, CHANGED_ALL);
     gtk_window_present(v->window);
-    if (s->operands != NULL && s->operands[0] != NULL) {
-        viewer_act_text(v, "open", s->operands[0]);
+    if (s->model != NULL) {
+        viewer_act_text(v, "open", s->model);
     }
     if (v->scripted || s->tab != NULL || s->size != NULL) {
         GError *error = NULL;
@@ -170,6 +170,7 @@ static int parse(start *s, int *argc, char ***argv) {
         entries("actions", G_OPTION_ARG_FILENAME, &s->actions,
                 "Run the steps of this file, then close ('print', 'expect', 'wait', any action)",
                 "FILE"),
+        entries("model", G_OPTION_ARG_FILENAME, &s->model, "The same as MODEL.obj", "FILE"),
         entries("tab", G_OPTION_ARG_STRING, &s->tab, "Show spacecraft, graphics, compare or orbit",
                 "TAB"),
         entries("screenshot", G_OPTION_ARG_FILENAME, &s->screenshot,
@@ -209,9 +210,13 @@ static int parse(start *s, int *argc, char ***argv) {
     if (!is_tab(s->tab) || !is_size(s->size)) {
         return BAD_USAGE;
     }
-    if (s->operands != NULL && s->operands[0] != NULL && s->operands[1] != NULL) {
+    guint operands = s->operands != NULL ? g_strv_length(s->operands) : 0;
+    if (operands + (s->model != NULL) > 1) {
         g_printerr("srp-viewer: expected one MODEL.obj\n");
         return BAD_USAGE;
+    }
+    if (operands == 1) {
+        s->model = g_strdup(s->operands[0]);
     }
     return -1; /* go on */
 }
@@ -254,5 +259,6 @@ int main(int argc, char **argv) {
     g_free(s.screenshot);
     g_free(s.size);
     g_strfreev(s.operands);
+    g_free(s.model);
     return status;
 }

@@ -18,11 +18,13 @@ start_display
 
 view 2 --no-such-option
 view 2 one.obj two.obj
+view 2 one.obj --model two.obj
 view 2 --actions "$scratch/no-such-file"
 view 2 --tab sideways --screenshot "$scratch/x.png"
 view 2 --size 12 --screenshot "$scratch/x.png"
 # A picture of what could not be opened is no success.
 view 1 --screenshot "$scratch/x.png" "$scratch/no-such.obj"
+view 1 --screenshot "$scratch/x.png" --model "$scratch/no-such.obj"
 
 # Files that are not there, or broken, and what comes after them.
 printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/broken.obj"
