@@ -250,11 +250,12 @@ void AreaModel::trace_at_once(const Settings &settings, srp_grid grid) {
         fail("SRPObjFile", error);
     }
     const Owned<srp_table> table(made);
-    // A cache that does not work stops nobody.
+    // A cache that does not work stops nobody, and is told of once.
     const auto exchange = [&] {
         if (cache_ && srp_cache_exchange(cache_.get(), prepared_.get(), table.get(), nullptr,
                                          &error) != SRP_OK) {
             messages_("SRPCacheDirectory: " + words_of(error));
+            cache_.reset();
         }
     };
     exchange();

@@ -191,6 +191,24 @@ START_TEST(at_once_and_on_demand_are_the_same) {
 }
 END_TEST
 
+START_TEST(a_cache_that_does_not_work_is_told_of_once) {
+    Heard heard;
+    Settings s = box_wing();
+    s.on_demand = false;
+    s.cache = true;
+    s.cache_directory = "test_plugin_no_directory";
+    std::ofstream(s.cache_directory) << "a file\n";
+    const AreaModel model(s, heard.to());
+    ck_assert(srp_vec3_dot(look_up(model, S), S) < -5.0);
+    const std::string field_name = "SRPCacheDirectory";
+    const size_t first = heard.text.find(field_name);
+    ck_assert_msg(first != std::string::npos, "said: '%s'", heard.text.c_str());
+    ck_assert_msg(heard.text.find(field_name, first + 1) == std::string::npos, "said: '%s'",
+                  heard.text.c_str());
+    std::remove(s.cache_directory.c_str());
+}
+END_TEST
+
 // A table of the box-wing in a file.
 static void write_table(const char *path) {
     Heard heard;
@@ -359,6 +377,7 @@ int main() {
     tcase_add_test(tcase, fields_fit_together);
     tcase_add_test(tcase, fields_that_count_for_nothing_are_refused);
     tcase_add_test(tcase, at_once_and_on_demand_are_the_same);
+    tcase_add_test(tcase, a_cache_that_does_not_work_is_told_of_once);
     tcase_add_test(tcase, tables_are_looked_up_by_each_scheme);
     tcase_add_test(tcase, bad_files_are_told_with_field_and_place);
     tcase_add_test(tcase, materials_of_a_file_win);
