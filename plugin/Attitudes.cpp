@@ -46,8 +46,9 @@ bool is_constant(Spacecraft *sc) {
 } // namespace
 
 bool may_follow_orbit(Spacecraft *sc) {
-    static const char *const OF_TIME_ALONE[] = {"Spinner", "PrecessingSpinner", "SpiceAttitude",
-                                                "CCSDS-AEM"};
+    // As in the sources of R2020a, R2022a and R2026a.
+    static const char *const OF_TIME_ALONE[] = {"Spinner", "PrecessingSpinner",
+                                                "ThreeAxisKinematic", "SpiceAttitude", "CCSDS-AEM"};
     GmatBase *attitude = sc->GetRefObject(Gmat::ATTITUDE, "");
     const std::string kind = kind_of(attitude);
     if (kind == FIXED) {

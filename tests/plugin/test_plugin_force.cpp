@@ -299,8 +299,10 @@ START_TEST(attitude_is_asked_for_when_it_can_change) {
         {"CoordinateSystemFixed", {"InertialAxes", "ICRFAxes"}, false, false},
         {"CoordinateSystemFixed", {"DynamicAxes", "ObjectReferencedAxes"}, false, true},
         {"NadirPointing", {"InertialAxes", "MJ2000EqAxes"}, false, true},
-        {"ThreeAxisKinematic", {"InertialAxes", "MJ2000EqAxes"}, false, true},
+        {"CommandableNadirPointing", {"InertialAxes", "MJ2000EqAxes"}, false, true},
         {"OfAnotherPlugin", {"InertialAxes", "MJ2000EqAxes"}, false, true},
+        {"", {"InertialAxes", "MJ2000EqAxes"}, false, true}, // of CommandableNadirPointing itself
+        {"ThreeAxisKinematic", {"InertialAxes", "MJ2000EqAxes"}, false, false},
         {"PrecessingSpinner", {"InertialAxes", "MJ2000EqAxes"}, false, false},
         {"SpiceAttitude", {"InertialAxes", "MJ2000EqAxes"}, false, false},
         {"CCSDS-AEM", {"InertialAxes", "MJ2000EqAxes"}, false, false},
