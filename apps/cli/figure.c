@@ -213,6 +213,13 @@ static void put_words(double x, double y, double size, double share, const char 
     free(cut);
 }
 
+void cli_figure_pen(double width) {
+    double dpi_x, dpi_y;
+    PLINT across, down, x, y;
+    plgpage(&dpi_x, &dpi_y, &across, &down, &x, &y);
+    plwidth(width * (double)across / PAGE_PX);
+}
+
 /* The place of column c of `columns`, row r from above; `x` and `y` margins in page units. */
 static cli_panel cell(const cli_figure_options *options, const cli_picture *picture, double left,
                       double right, size_t r) {
@@ -291,9 +298,12 @@ static void open_page(const cli_figure_options *options, const cli_picture *pict
     plscol0(INK_GREY, 120, 120, 120);
     plfontld(1);
     plinit();
-    plschr(3.9, 1.0);
-    plsmaj(0.0, 0.7);
-    plsmin(0.0, 0.7);
+    /* Letters, marks and lines are of pixels, whatever the page's resolution says. */
+    double zoom = pixels / PAGE_PX;
+    plschr(3.9 * zoom, 1.0);
+    plsmaj(0.0, 0.7 * zoom);
+    plsmin(0.0, 0.7 * zoom);
+    cli_figure_pen(1.0);
 }
 
 int cli_figure_write(const cli_figure_options *options, const cli_picture *picture) {

@@ -29,6 +29,8 @@ void cli_figure_window(const double view[2], double *left, double *right, double
                        double *top);
 /* Loads the colours that stand for `low` to `high` on this scale into map 1. */
 void cli_figure_colours(cli_scale scale, double low, double high);
+/* Lines of this width, in pixels of a page that is as wide as by default. */
+void cli_figure_pen(double width);
 /* `text` with PLplot's own escapes masked; freed by the caller. NULL without memory. */
 char *cli_figure_text(const char *text);
 

@@ -85,7 +85,7 @@ static void label_ellipse(void) {
 
 static void draw_frame(const char *name, cli_scale scale, bool mollweide) {
     plcol0(INK_GREY);
-    plwidth(0.5);
+    cli_figure_pen(0.5);
     for (int az = -90; az <= 90; az += 90) {
         draw_line(-90.0, 90.0, az, true, mollweide);
     }
@@ -93,7 +93,7 @@ static void draw_frame(const char *name, cli_scale scale, bool mollweide) {
         draw_line(-180.0, 180.0, el, false, mollweide);
     }
     plcol0(INK_BLACK);
-    plwidth(1.0);
+    cli_figure_pen(1.0);
     if (mollweide) {
         draw_line(-90.0, 90.0, -180.0, true, true);
         draw_line(-90.0, 90.0, 180.0, true, true);
@@ -162,10 +162,10 @@ static void draw_contours(const map *m, cli_scale scale, bool mollweide) {
     bool tangle = is_restless(m, step);
     plcol0(INK_BLACK);
     pl_setcontlabelparam(0.008, 0.6, 0.1, 0);
-    plwidth(tangle ? 0.2 : 0.6);
+    cli_figure_pen(tangle ? 0.2 : 0.6);
     plcont((PLFLT_MATRIX)m->z, m->nx, m->ny, 1, m->nx, 1, m->ny, level, count, pltr2,
            (PLPointer)&m->at);
-    plwidth(1.0);
+    cli_figure_pen(1.0);
     if (!tangle) {
         label_contours(m, level, count, step, mollweide);
     }

@@ -60,6 +60,9 @@ static bool surface_make(surface *s, srp_grid grid, const double *value, uint32_
 /* Height of the box whose base is 1 by 1. */
 static const double BOX_HEIGHT = 1.0;
 
+/* Elevation of the eye [deg], too little to be seen. */
+static const double LOWEST_VIEW = 0.001;
+
 /* A window that holds the box of the plot, seen like this, and its labels. */
 void cli_figure_window(const double view[2], double *left, double *right, double *bottom,
                        double *top) {
@@ -73,7 +76,8 @@ void cli_figure_window(const double view[2], double *left, double *right, double
 
 bool cli_figure_surface(const cli_panel *panel, const cli_picture *picture, size_t column,
                         size_t row, cli_scale scale, const cli_look *look) {
-    const double *view = look->view;
+    /* PLplot draws nothing for an eye at azimuth and elevation 0. */
+    const double view[2] = {look->view[0], fmax(look->view[1], LOWEST_VIEW)};
     surface s;
     if (!surface_make(&s, picture->grid[column], picture->field[column][row].value,
                       look->steps_max)) {

@@ -54,6 +54,18 @@ expect 0 compare truth.nc by-hand.nc -o doc.png --width 800
 "$FIGURE_COMPARE" reduce "$ROOT/docs/figures/box-wing-plates.png" small.png
 "$FIGURE_COMPARE" compare doc.png small.png || fail 'docs/figures/box-wing-plates.png is not up to date'
 
+# A figure is the same at any width, letters and lines too; and so is the view along the axes.
+for kind in '' --map; do
+    expect 0 plot box.nc $kind -o narrow.png --width 600
+    expect 0 plot box.nc $kind -o wide.png --width 2400
+    "$FIGURE_COMPARE" reduce wide.png half.png && "$FIGURE_COMPARE" reduce half.png small.png
+    "$FIGURE_COMPARE" compare narrow.png small.png || fail "--width changes more than the size: plot $kind"
+done
+expect 0 plot box.nc -o along.png --width 600 --view 0,0
+expect 0 plot box.nc -o beside.png --width 600 --view 0,0.01
+"$FIGURE_COMPARE" reduce beside.png small.png
+"$FIGURE_COMPARE" compare along.png small.png || fail '--view 0,0 draws something else'
+
 # The comparison can fail: another view, another model, other colours.
 if [ "$renew" != --renew ]; then
     for other in box-wing-view sun-shield; do
