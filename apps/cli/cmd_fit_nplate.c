@@ -345,7 +345,8 @@ static int fit(fit_job *job) {
     if (wants(job, "auto")) {
         job->normals.count = cli_is_given(job->options->given, FIT_PLATES) ? job->options->plates
                                                                            : (size_t)PLATES_AUTO;
-        snprintf(job->normals.words, sizeof job->normals.words, "searched");
+        snprintf(job->normals.words, sizeof job->normals.words,
+                 "searched: a better set may exist, try other --plates, or give --normals");
         status = cli_table_search(job->table, job->path, &job->samples, job->normals.count,
                                   job->normals.normal);
     } else if (wants(job, "mesh")) {
@@ -404,6 +405,9 @@ static int print_residuals(const fit_job *job) {
     print_residual(job, "fit", job->fit.model, false);
     if (some_lit) {
         print_residual(job, "fit", job->fit.model, true);
+    } else if (job->skip != NULL) {
+        printf("%-24s %10d  from everywhere more than --shadow %g is shaded\n", "fit, not shaded",
+               0, job->options->shadow);
     }
     if (job->against == NULL) {
         return CLI_DONE;

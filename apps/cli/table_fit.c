@@ -23,6 +23,12 @@ int cli_table_explain(const char *name, const cli_samples *samples, cli_fit_stat
         return CLI_BAD_INPUT;
     case CLI_FIT_AMBIGUOUS:
     default:
+        if (plates == 1) {
+            cli_say_of_file("%s: these directions do not determine a plate; a finer table, or "
+                            "another normal, can",
+                            name);
+            return CLI_BAD_INPUT;
+        }
         cli_say_of_file("%s: %zu plates cannot be told apart in these directions; fewer plates "
                         "(--plates N), or "
                         "normals farther apart, can",

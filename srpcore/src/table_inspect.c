@@ -9,6 +9,8 @@
 static const double SPREAD_MIN = 1e-9;
 static const double QUANTUM_MIN = 1e-7;
 static const double TOTAL_MIN = 1e-4;
+/* Few numbers are round by chance. */
+static const size_t QUANTUM_NODES_MIN = 24;
 
 static double pole_spread(const srp_table *table, uint32_t j) {
     uint32_t count = table->grid.az_count - 1; /* the last one is the first */
@@ -53,6 +55,9 @@ static bool all_are_multiples(const srp_table *table, double scale) {
 }
 
 static double quantum(const srp_table *table, double f_max) {
+    if (srp_grid_node_count(table->grid) < QUANTUM_NODES_MIN) {
+        return 0.0;
+    }
     for (int digits = -6; digits <= 12; ++digits) {
         double scale = pow(10.0, digits);
         if (1.0 / scale < QUANTUM_MIN * f_max || !(f_max > 0.0)) {

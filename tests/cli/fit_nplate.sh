@@ -72,13 +72,21 @@ says 'massless.script lacks the mass (DryMass)'
 expect 0 fit-nplate fitted.nc --plates 6 --gmat heavy.script --mass 12.5
 grep -qx 'Sat.DryMass = 12.5;' heavy.script || fail 'the mass is not taken'
 
+# Where all directions are shaded there is no residual of the others, which is said.
+expect 0 table "$MODELS/dish.obj" -o dish.nc --step 30
+expect 0 fit-nplate dish.nc --mesh "$MODELS/dish.obj" --plates 4
+prints 'fit, not shaded                   0  from everywhere'
+expect 0 table "$MODELS/box-wing.obj" -o two.nc --step 180
+expect 1 fit-nplate two.nc --plates 1
+says 'these directions do not determine a plate'
+
 # Normals: from the mesh, searched, from a list.
 expect 0 fit-nplate traced.nc --mesh "$MODELS/box-wing.obj"
 prints 'normals  6, of the mesh'
 expect 0 fit-nplate traced.nc --mesh "$MODELS/box-wing.obj" --plates 2
 prints 'normals  2, of the mesh, 80.8 %'
 expect 0 fit-nplate traced.nc
-prints 'normals  8, searched'
+prints 'normals  8, searched: a better set may exist'
 is "$(residual 'fit, all') < $fitted" || fail 'eight searched plates are worse than six given ones'
 printf '# by hand\n1 0 0\n\n-1 0 0 # back\n0 2 0\r\n0\t-3\t0\n0 0 1\n0 0 -1\n' > normals.txt
 expect 0 fit-nplate traced.nc --normals normals.txt

@@ -181,6 +181,10 @@ START_TEST(odd_numbers_are_reported) {
     assert_close(report.quantum, 0.01, 1e-15, 0.0);
     ck_assert_ptr_nonnull(strstr(said, "forces are rounded to 0.01 m^2"));
     srp_table_destroy(table);
+    table = field_table(2, 2, true, rounded_field); /* few numbers are round by chance */
+    report = inspect(table);
+    ck_assert(report.quantum == 0.0);
+    srp_table_destroy(table);
 }
 END_TEST
 
