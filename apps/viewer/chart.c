@@ -91,6 +91,7 @@ static void draw(GtkDrawingArea *area, cairo_t *cr, int width, int height, gpoin
         viewer_page_place(&page, c->marked_i, c->marked_j, &x, &y);
         cairo_set_source_rgb(cr, 0.85, 0.1, 0.1);
         cairo_set_line_width(cr, 2.0);
+        cairo_new_path(cr); /* else a line from the end of the title leads to it */
         cairo_arc(cr, x, y, 5.0, 0.0, 2.0 * G_PI);
         cairo_stroke(cr);
     }
