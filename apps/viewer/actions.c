@@ -226,27 +226,22 @@ static void set_camera(viewer *v, GVariant *parameter) {
         viewer_complain(v, "expected AZ,EL or AZ,EL,ZOOM");
         return;
     }
-    v->camera =
-        (viewer_camera){at[0], fmax(-90.0, fmin(90.0, at[1])), fmax(0.05, fmin(50.0, at[2]))};
-    viewer_tell(v, CHANGED_VIEW);
+    viewer_set_camera(v, at[0], at[1], at[2]);
 }
 
 static void zoom_in(viewer *v, GVariant *parameter) {
     (void)parameter;
-    v->camera.zoom = fmin(50.0, 1.25 * v->camera.zoom);
-    viewer_tell(v, CHANGED_VIEW);
+    viewer_set_camera(v, v->camera.az_deg, v->camera.el_deg, 1.25 * v->camera.zoom);
 }
 
 static void zoom_out(viewer *v, GVariant *parameter) {
     (void)parameter;
-    v->camera.zoom = fmax(0.05, v->camera.zoom / 1.25);
-    viewer_tell(v, CHANGED_VIEW);
+    viewer_set_camera(v, v->camera.az_deg, v->camera.el_deg, v->camera.zoom / 1.25);
 }
 
 static void reset_view(viewer *v, GVariant *parameter) {
     (void)parameter;
-    v->camera = (viewer_camera){-50.0, 24.0, 1.0};
-    viewer_tell(v, CHANGED_VIEW);
+    viewer_set_camera(v, -50.0, 24.0, 1.0);
 }
 
 static void toggle_shadows(viewer *v, GVariant *parameter) {

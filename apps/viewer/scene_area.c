@@ -353,19 +353,21 @@ static void on_drag_begin(GtkGestureDrag *drag, double x, double y, gpointer use
     a->drag_el = a->v->camera.el_deg;
 }
 
+static void turn_camera(area *a, double az_deg, double el_deg) {
+    viewer_set_camera(a->v, fmod(az_deg, 360.0), el_deg, a->v->camera.zoom);
+}
+
 static void on_drag(GtkGestureDrag *drag, double dx, double dy, gpointer user) {
     area *a = user;
     (void)drag;
-    a->v->camera.az_deg = fmod(a->drag_az - 0.4 * dx, 360.0);
-    a->v->camera.el_deg = fmax(-90.0, fmin(90.0, a->drag_el + 0.4 * dy));
-    viewer_tell(a->v, CHANGED_VIEW);
+    turn_camera(a, a->drag_az - 0.4 * dx, a->drag_el + 0.4 * dy);
 }
 
 static gboolean on_scroll(GtkEventControllerScroll *scroll, double dx, double dy, gpointer user) {
     area *a = user;
     (void)scroll, (void)dx;
-    a->v->camera.zoom = fmax(0.05, fmin(50.0, a->v->camera.zoom * pow(1.12, -dy)));
-    viewer_tell(a->v, CHANGED_VIEW);
+    const viewer_camera *camera = &a->v->camera;
+    viewer_set_camera(a->v, camera->az_deg, camera->el_deg, camera->zoom * pow(1.12, -dy));
     return TRUE;
 }
 
@@ -379,9 +381,7 @@ static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkMo
     if ((held & gtk_accelerator_get_default_mod_mask()) != 0 || (across == 0.0 && up == 0.0)) {
         return FALSE;
     }
-    a->v->camera.az_deg = fmod(a->v->camera.az_deg + 5.0 * across, 360.0);
-    a->v->camera.el_deg = fmax(-90.0, fmin(90.0, a->v->camera.el_deg + 5.0 * up));
-    viewer_tell(a->v, CHANGED_VIEW);
+    turn_camera(a, a->v->camera.az_deg + 5.0 * across, a->v->camera.el_deg + 5.0 * up);
     return TRUE;
 }
 
@@ -404,19 +404,15 @@ static void on_light(void *user) {
 static gboolean find_light_early(gpointer user) {
     area *a = user;
     const viewer_session *s = a->v->session;
-    srp_render_light *light = NULL;
     srp_error error;
     double az, el;
     a->early = 0;
     viewer_attitude_sun(&s->attitude, &az, &el);
     gtk_gl_area_make_current(GTK_GL_AREA(a->gl));
     if (a->drawn == s->engine &&
-        srp_render_light_find(a->drawn->mesh, srp_direction_from_deg(az, el), NULL, NULL, &light,
-                              &error) == SRP_OK &&
-        srp_renderer_set_light(a->renderer, light, &error) != SRP_OK) {
+        srp_renderer_find_light(a->renderer, srp_direction_from_deg(az, el), &error) != SRP_OK) {
         show_trouble(a, error.message);
     }
-    srp_render_light_destroy(light);
     return G_SOURCE_REMOVE;
 }
 

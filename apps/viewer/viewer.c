@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "viewer.h"
 
+#include <math.h>
 #include <string.h>
 
 const char *const VIEWER_TAB_NAME[TAB_COUNT] = {"spacecraft", "graphics", "compare", "orbit"};
@@ -56,6 +57,12 @@ void viewer_complain_of_model(viewer *v, const char *text) {
     } else if (v->message_is_of_model) {
         viewer_complain(v, "");
     }
+}
+
+void viewer_set_camera(viewer *v, double az_deg, double el_deg, double zoom) {
+    v->camera =
+        (viewer_camera){az_deg, fmax(-90.0, fmin(90.0, el_deg)), fmax(0.05, fmin(50.0, zoom))};
+    viewer_tell(v, CHANGED_VIEW);
 }
 
 void viewer_act(viewer *v, const char *action, GVariant *parameter) {

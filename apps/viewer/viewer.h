@@ -85,6 +85,9 @@ void viewer_complain(viewer *v, const char *text);
 /* The same for what is wrong with spacecraft or method: stands until the next engine. */
 void viewer_complain_of_model(viewer *v, const char *text);
 
+/* Moves the eye; elevation and zoom are kept within their ranges. */
+void viewer_set_camera(viewer *v, double az_deg, double el_deg, double zoom);
+
 /* Activates an action, "turn-x", as a widget does; `parameter` may be NULL. */
 void viewer_act(viewer *v, const char *action, GVariant *parameter);
 void viewer_act_text(viewer *v, const char *action, const char *text);

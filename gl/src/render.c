@@ -364,16 +364,14 @@ static srp_status draw_smooth(srp_renderer *renderer, const srp_render_view *vie
 static srp_status prepare(srp_renderer *renderer, const srp_render_view *view, float rows[4][4],
                           srp_error *error) {
     const srp_scene *scene = renderer->scene;
-    srp_vec3 centre = scene != NULL ? scene->centre : view->camera.target, sun = view->sun;
+    srp_vec3 centre = scene != NULL ? scene->centre : view->camera.target;
     double radius = scene != NULL ? scene->radius : view->camera.half_height;
     double reach = radius + srp_vec3_norm(srp_vec3_sub(centre, view->camera.target));
     reach = fmax(reach, srp_render_marks_reach(view));
     srp_render_matrix(view, centre, radius, reach, rows);
-    bool known = renderer->lit_known && sun.x == renderer->lit_from.x &&
-                 sun.y == renderer->lit_from.y && sun.z == renderer->lit_from.z;
     srp_status status = SRP_OK;
-    if (scene != NULL && view->shadows && !known && !is_coarse(renderer, view)) {
-        status = srp_render_send_lit(renderer, sun, error);
+    if (view->shadows && !is_coarse(renderer, view)) {
+        status = srp_renderer_find_light(renderer, view->sun, error);
     }
     if (status == SRP_OK && scene != NULL && view->edges && !renderer->edges_known) {
         status = srp_render_send_edges(renderer, scene, error);

@@ -105,11 +105,6 @@ srp_status srp_render_send_edges(srp_renderer *renderer, const srp_scene *scene,
  * above. */
 void srp_render_send_coarse(srp_renderer *renderer, const srp_scene *scene);
 
-/* ---- render_light.c ---- */
-
-/* The parts of facets that the Sun lights. SRP_NO_MEMORY. */
-srp_status srp_render_send_lit(srp_renderer *renderer, srp_vec3 sun, srp_error *error);
-
 /* ---- render_look.c: colours ---- */
 
 /* SRP_BAD_ARGUMENT: what is wrong with a view. */

@@ -103,8 +103,16 @@ static void light_is_known(srp_renderer *renderer, srp_vec3 sun) {
     renderer->lit_known = true;
 }
 
-srp_status srp_render_send_lit(srp_renderer *renderer, srp_vec3 sun, srp_error *error) {
+static bool is_known(const srp_renderer *renderer, srp_vec3 sun) {
+    return renderer->lit_known && sun.x == renderer->lit_from.x && sun.y == renderer->lit_from.y &&
+           sun.z == renderer->lit_from.z;
+}
+
+srp_status srp_renderer_find_light(srp_renderer *renderer, srp_vec3 sun, srp_error *error) {
     lit_sink sink = {.to = &renderer->scratch};
+    if (renderer->scene == NULL || is_known(renderer, sun)) {
+        return SRP_OK;
+    }
     if (renderer->visible == NULL) {
         renderer->visible = srp_visible_create(renderer->scene);
     }

@@ -188,6 +188,11 @@ SRP_API SRP_CHECK srp_status srp_renderer_set_light(srp_renderer *renderer,
                                                     const srp_render_light *light,
                                                     srp_error *error);
 
+/* Finds where the light falls, a unit vector `sun`, for the views that come: what the first of them
+ * would do. The context is current. Nothing to do without a scene. SRP_NO_MEMORY. */
+SRP_API SRP_CHECK srp_status srp_renderer_find_light(srp_renderer *renderer, srp_vec3 sun,
+                                                     srp_error *error);
+
 /* Draws a picture. Where the light falls is found anew only when the Sun has moved since the last
  * time: a millisecond or so for a thousand facets, so that a Sun can be dragged.
  * SRP_BAD_ARGUMENT (a field out of its range; the message names it), SRP_NO_MEMORY, SRP_NO_DEVICE.
