@@ -4,9 +4,7 @@
 #ifndef SRP_PLUGIN_ATTITUDES_HPP
 #define SRP_PLUGIN_ATTITUDES_HPP
 
-// R2026a names it even where CSPICE is left out.
-class SpiceOrbitKernelReader;
-#include "PhysicalModel.hpp"
+#include "GmatForce.hpp"
 
 #include <cstddef>
 #include <vector>

@@ -4,9 +4,7 @@
 #ifndef SRP_PLUGIN_SCRIPT_HPP
 #define SRP_PLUGIN_SCRIPT_HPP
 
-// R2026a names it even where CSPICE is left out.
-class SpiceOrbitKernelReader;
-#include "PhysicalModel.hpp"
+#include "GmatForce.hpp"
 
 #include <functional>
 #include <string>

@@ -150,14 +150,9 @@ static const cli_group *const GROUPS[] = {&PICTURE, &cli_group_shape};
 
 /* ---- before the work ---- */
 
-static bool ends_with_png(const char *path) {
-    size_t length = strlen(path);
-    return length > 4 && cli_same_letters(path + length - 4, ".png");
-}
-
 static int check_output(const char *path, const cli_operands *operands) {
     const char *reason;
-    if (!ends_with_png(path)) {
+    if (!cli_ends_with(path, ".png")) {
         return cli_usage_error("%s: unknown ending (the format of pictures: .png)", path);
     }
     for (size_t k = 0; k < operands->count; ++k) {

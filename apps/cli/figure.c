@@ -33,10 +33,8 @@ static const format FORMATS[] = {
     {".pdf", "pdfcairo", "%%EOF", 5, 90, 180, 64, NULL}};
 
 static const format *format_of(const char *path) {
-    size_t length = strlen(path);
     for (size_t k = 0; k < sizeof FORMATS / sizeof FORMATS[0]; ++k) {
-        size_t size = strlen(FORMATS[k].ending);
-        if (length > size && cli_same_letters(path + length - size, FORMATS[k].ending)) {
+        if (cli_ends_with(path, FORMATS[k].ending)) {
             return &FORMATS[k];
         }
     }

@@ -187,7 +187,7 @@ static void print_finding(void *user, const srp_error *what) {
     bool *any = user;
     fputs(*any ? "- " : "\nFindings:\n- ", stdout);
     if (what->line > 0) {
-        printf("line %zu: ", (size_t)what->line);
+        printf("line %zu: ", what->line);
     }
     puts(what->message);
     *any = true;

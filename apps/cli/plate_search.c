@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Normals of plates that nobody gives: added one by one where they help most, turned together. */
+#include "facing.h"
 #include "plate_columns.h"
 #include "plate_fit.h"
 
@@ -17,8 +18,7 @@ enum {
     SPIRAL = 574,      /* more directions, spread evenly: 5 to 6 degrees apart */
     TURNS = 60,        /* steps of turning at most, in the end ... */
     TURNS_BETWEEN = 8, /* ... and after each new plate */
-    EXCHANGES = 2,     /* times that each plate is taken out and searched anew */
-    PLATES_MAX = 64
+    EXCHANGES = 2      /* times that each plate is taken out and searched anew */
 };
 
 /* Steps that gain less than this share of the squared residual end the turning. */
@@ -219,8 +219,8 @@ static void add_direction(turning *t, double weight, srp_vec3 off, const size_t 
 /* Plates that the Sun is not in front of have no part in a direction: about half of them. */
 static void sum_directions(turning *t, const cli_samples *samples, const cli_plate_fit *fit) {
     for (size_t k = 0; k < samples->count; ++k) {
-        srp_vec3 off = srp_vec3_sub(samples->value[k], fit->model[k]), d[PLATES_MAX][5];
-        size_t lit[PLATES_MAX], lit_count = 0;
+        srp_vec3 off = srp_vec3_sub(samples->value[k], fit->model[k]), d[CLI_NORMALS_MAX][5];
+        size_t lit[CLI_NORMALS_MAX], lit_count = 0;
         for (size_t p = 0; p < t->count; ++p) {
             if (srp_vec3_dot(fit->plates[p].normal, samples->at[k].s) > 0.0) {
                 derivatives(&fit->plates[p], samples->at[k].s, &t->tangent[2 * p], d[lit_count]);
@@ -418,7 +418,7 @@ static cli_fit_status improve(const cli_samples *samples, size_t count, srp_vec3
 
 cli_fit_status cli_plate_normals_search(const cli_samples *search, const cli_samples *all,
                                         size_t count, srp_vec3 *normals) {
-    if (3 * search->count <= 5 * count || count > PLATES_MAX) {
+    if (3 * search->count <= 5 * count || count > CLI_NORMALS_MAX) {
         return CLI_FIT_TOO_FEW;
     }
     gsl_error_handler_t *handler = gsl_set_error_handler_off();

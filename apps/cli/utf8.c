@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "utf8.h"
 
+#include <string.h>
+
 size_t cli_utf8_length(const char *text) {
     const unsigned char *p = (const unsigned char *)text;
     if (p[0] < 0x80) {
@@ -38,10 +40,16 @@ static char small(char letter) {
     return letter >= 'A' && letter <= 'Z' ? (char)(letter - 'A' + 'a') : letter;
 }
 
-bool cli_same_letters(const char *a, const char *b) {
+/* Are these the same but for the case of the letters A to Z? */
+static bool same_letters(const char *a, const char *b) {
     while (*a != '\0' && small(*a) == small(*b)) {
         ++a;
         ++b;
     }
     return *a == '\0' && *b == '\0';
+}
+
+bool cli_ends_with(const char *text, const char *ending) {
+    size_t length = strlen(text), size = strlen(ending);
+    return length > size && same_letters(text + length - size, ending);
 }

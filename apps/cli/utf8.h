@@ -14,7 +14,7 @@ size_t cli_utf8_find_bad(const char *text);
 /* Puts '?' in place of each such byte: names of files may hold any. */
 void cli_utf8_mend(char *text);
 
-/* Are these the same but for the case of the letters A to Z? */
-bool cli_same_letters(const char *a, const char *b);
+/* Does a longer text end with this, but for the case of the letters A to Z? */
+bool cli_ends_with(const char *text, const char *ending);
 
 #endif

@@ -443,16 +443,10 @@ static srp_status end_file(reader *in) {
         return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, in->text.line, 0,
                            "the text ends before any data, expected a SPAD file");
     }
-    if (!srp_table_is_complete(in->table)) {
-        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, in->text.line, 0,
-                           "the file ends after %zu records, expected %zu", in->rows,
-                           srp_grid_node_count(in->table->grid));
-    }
-    if (in->is_ours) {
-        srp_status status = srp_table_end_of_text(&in->text, in->error);
-        if (status != SRP_OK) {
-            return status;
-        }
+    srp_status status =
+        srp_table_end_of_rows(&in->text, in->table, in->rows, "records", in->is_ours, in->error);
+    if (status != SRP_OK) {
+        return status;
     }
     if (in->has_torque) {
         in->table->info.params.reference =

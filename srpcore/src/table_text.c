@@ -155,8 +155,14 @@ srp_status srp_table_key_once(const srp_text *text, srp_token key, size_t *line,
 
 const char srp_table_writer[] = "srpcore";
 
-srp_status srp_table_end_of_text(const srp_text *text, srp_error *error) {
-    if (text->end[-1] != '\n' && text->end[-1] != '\r') {
+srp_status srp_table_end_of_rows(const srp_text *text, const srp_table *table, size_t count,
+                                 const char *noun, bool is_ours, srp_error *error) {
+    if (!srp_table_is_complete(table)) {
+        return srp_fail_at(error, SRP_BAD_FORMAT, text->name, text->line, 0,
+                           "the file ends after %zu %s, expected %zu", count, noun,
+                           srp_grid_node_count(table->grid));
+    }
+    if (is_ours && text->end[-1] != '\n' && text->end[-1] != '\r') {
         return srp_fail_at(error, SRP_BAD_FORMAT, text->name, text->line, 0,
                            "the last line has no end, expected one in a file of srpcore: it is cut "
                            "short");

@@ -48,10 +48,12 @@ srp_status srp_table_row_vec3(srp_text *text, const char *name, const double sca
 /* Remembers in *line (0 before) where `key` stands; SRP_BAD_FORMAT when it stands there again. */
 srp_status srp_table_key_once(const srp_text *text, srp_token key, size_t *line, srp_error *error);
 /* What our own files name as the program that wrote them. Whole, they end with the end of a line,
- * so that one cut inside its last number is told from one that has fewer digits. SRP_BAD_FORMAT for
- * a text without it. */
+ * so that one cut inside its last number is told from one that has fewer digits. */
 extern const char srp_table_writer[];
-srp_status srp_table_end_of_text(const srp_text *text, srp_error *error);
+/* SRP_BAD_FORMAT where the text ends before the last of the grid's rows, which a message calls
+ * `noun`; `count` have been read. `is_ours`: one of our files, see above. */
+srp_status srp_table_end_of_rows(const srp_text *text, const srp_table *table, size_t count,
+                                 const char *noun, bool is_ours, srp_error *error);
 /* The grid of the steps [deg] that a file gives; SRP_BAD_FORMAT when they do not divide their
  * ranges, or when a text of `size` bytes is too short for all rows of the grid: asked before memory
  * is taken on the word of a file. */

@@ -239,16 +239,10 @@ static srp_status end_file(reader *in) {
         return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, in->text.line, 0,
                            "the text ends before any row, expected `az el ax ay az |a|`");
     }
-    if (!srp_table_is_complete(in->table)) {
-        return srp_fail_at(in->error, SRP_BAD_FORMAT, in->text.name, in->text.line, 0,
-                           "the file ends after %zu rows, expected %zu", in->rows,
-                           srp_grid_node_count(in->table->grid));
-    }
-    if (in->is_ours) {
-        srp_status status = srp_table_end_of_text(&in->text, in->error);
-        if (status != SRP_OK) {
-            return status;
-        }
+    srp_status status =
+        srp_table_end_of_rows(&in->text, in->table, in->rows, "rows", in->is_ours, in->error);
+    if (status != SRP_OK) {
+        return status;
     }
     in->table->info.mass = in->mass;
     in->table->info.light = in->light;

@@ -113,6 +113,13 @@ static Spacecraft make_craft(const char *name, Real angle) {
     return sc;
 }
 
+// Its attitude stays where it is.
+static Spacecraft make_fixed_craft(const char *name, Real angle) {
+    Spacecraft sc = make_craft(name, angle);
+    sc.kind.BecomeKind("CoordinateSystemFixed");
+    return sc;
+}
+
 static srp_vec3 acceleration_of(const HighFidelitySRP &force, Integer at) {
     const Real *d = force.GetDerivativeArray() + at;
     return srp_vec3_make(d[0], d[1], d[2]);
@@ -332,8 +339,7 @@ END_TEST
 // reports.
 START_TEST(attitude_that_is_changed_is_noticed) {
     Sky sky;
-    Spacecraft sc = make_craft("A", 0.3);
-    sc.kind.BecomeKind("CoordinateSystemFixed");
+    Spacecraft sc = make_fixed_craft("A", 0.3);
     Real state[6] = {36607.4, -20921.7, 11.0, 1.5, 2.6, 0.01};
     Force force = started(*configured(), sky, &sky.earth, {&sc}, {850.0});
     const auto now = [&](HighFidelitySRP &of, Real dt) {
@@ -355,8 +361,7 @@ START_TEST(attitude_that_is_changed_is_noticed) {
     assert_vec3_close(now(*started(*force, sky, &sky.earth, {&sc}, {850.0}), 0.0), before, 0.0,
                       0.0);
     // Another spacecraft in its place, and another kind of attitude.
-    Spacecraft other = make_craft("B", 1.1);
-    other.kind.BecomeKind("CoordinateSystemFixed");
+    Spacecraft other = make_fixed_craft("B", 1.1);
     force->SetSpaceObject(0, &other);
     assert_vec3_close(now(*force, 0.0), after, 1e-12, 0.0);
     spin(other, 0.15);
@@ -370,8 +375,7 @@ END_TEST
 // A burn: the tank empties at each stage while the attitude stays.
 START_TEST(a_burn_changes_the_mass_at_each_stage) {
     Sky sky;
-    Spacecraft sc = make_craft("A", 0.3);
-    sc.kind.BecomeKind("CoordinateSystemFixed");
+    Spacecraft sc = make_fixed_craft("A", 0.3);
     Real state[6] = {36607.4, -20921.7, 11.0, 1.5, 2.6, 0.01};
     Force force = started(*configured(), sky, &sky.earth, {&sc}, {850.0});
     ck_assert(force->GetDerivatives(state, 0.0, 1));

@@ -239,6 +239,11 @@ START_TEST(a_table_of_another_name_is_set_aside) {
 }
 END_TEST
 
+static void assert_told_once_of_writing(void) {
+    ck_assert_int_eq(cache_test.messages, 1);
+    ck_assert_ptr_nonnull(strstr(cache_test.last_message, "is not kept until that is mended"));
+}
+
 START_TEST(a_directory_that_cannot_be_used_costs_one_message) {
     counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
     /* A file where a directory should be stops root as well. */
@@ -259,8 +264,7 @@ START_TEST(a_directory_that_cannot_be_used_costs_one_message) {
     srp_error error;
     ck_assert_int_eq(srp_demand_flush(demand, &error), SRP_IO);
     srp_demand_destroy(demand);
-    ck_assert_int_eq(cache_test.messages, 1);
-    ck_assert_ptr_nonnull(strstr(cache_test.last_message, "is not kept until that is mended"));
+    assert_told_once_of_writing();
     ck_assert_ptr_nonnull(strstr(cache_test.last_message, "Not a directory"));
     srp_cache_close(cache);
     counting_end(&fixture);
@@ -376,8 +380,7 @@ START_TEST(a_cache_that_cannot_be_written_is_read) {
     ck_assert_uint_eq(srp_demand_count(demand).computed, UNIQUE - 3 * 5 - 2);
     assert_is_full(&fixture, demand);
     srp_demand_destroy(demand);
-    ck_assert_int_eq(cache_test.messages, 1);
-    ck_assert_ptr_nonnull(strstr(cache_test.last_message, "is not kept until that is mended"));
+    assert_told_once_of_writing();
     srp_cache_close(cache);
     counting_end(&fixture);
 }
