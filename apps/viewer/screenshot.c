@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "screenshot.h"
 
-bool viewer_screenshot(viewer *v, const char *path) {
+void viewer_screenshot(viewer *v, const char *path) {
     GdkPaintable *paintable = gtk_widget_paintable_new(GTK_WIDGET(v->window));
     GtkSnapshot *snapshot = gtk_snapshot_new();
     int width = gdk_paintable_get_intrinsic_width(paintable);
@@ -29,5 +29,4 @@ bool viewer_screenshot(viewer *v, const char *path) {
         viewer_complain(v, words);
         g_free(words);
     }
-    return good;
 }

@@ -5,6 +5,6 @@
 #include "viewer.h"
 
 /* Draws the window into a PNG file; complains when that fails. */
-bool viewer_screenshot(viewer *v, const char *path);
+void viewer_screenshot(viewer *v, const char *path);
 
 #endif

@@ -66,8 +66,6 @@ struct viewer {
     double asked_at;          /* when the newest force was asked for, NAN: shown already */
     GPtrArray *listeners;
     int exit_status;
-    bool strict; /* a complaint is a failure: there is a picture to make, and no script that expects
-                  */
     bool scripted;  /* the window closes when the script is at its end */
     bool remembers; /* what is remembered is read at the start and written at the end */
 };
@@ -87,6 +85,10 @@ void viewer_complain_of_model(viewer *v, const char *text);
 
 /* Moves the eye; elevation and zoom are kept within their ranges. */
 void viewer_set_camera(viewer *v, double az_deg, double el_deg, double zoom);
+
+/* A size that a window can have: MIN to MAX pixels each way. */
+enum { WINDOW_SIZE_MIN = 100, WINDOW_SIZE_MAX = 20000 };
+bool viewer_is_window_size(int width, int height);
 
 /* Activates an action, "turn-x", as a widget does; `parameter` may be NULL. */
 void viewer_act(viewer *v, const char *action, GVariant *parameter);

@@ -26,6 +26,8 @@ resize 1280 800
 wait
 screenshot $SHOTS/fine.png
 END
+view 0 --size 900x700 --tab orbit --screenshot "$SHOTS/small.png"
+"$CHECK" "$SHOTS/small.png" 900 700 0 0 900 200 8 0.99 || fail '--size 900x700 is not that size'
 GDK_SCALE=2 view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 "$CHECK" "$SHOTS/fine.png" 2560 1600 20 480 1680 920 25 0.985 || fail 'the fine picture does not show what it should'
 judge

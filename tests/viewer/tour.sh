@@ -41,6 +41,7 @@ wait
 record
 expect arrows 6 arrows
 expect record Start
+wait
 screenshot $SHOTS/3-arrows.png
 colouring incidence
 wait
@@ -109,6 +110,7 @@ expect compare-b 6 plates fitted
 expect message fitted to
 print vector-rms
 save $scratch/fitted.plates
+wait
 screenshot $SHOTS/9-fit.png
 
 clear-tables
@@ -184,6 +186,13 @@ END
     cmp "$scratch/cli.csv" "$scratch/viewer.csv" || fail 'other rows than srp propagate'
 fi
 
+# The script of the user guide.
+sed -n '/^cat > steps << END$/,/^END$/p' "$ROOT/docs/user-guide.md" | sed '1d; $d' > "$scratch/steps"
+(cd "$scratch" && view 0 --actions steps "$ROOT/models/box-wing.obj" && exit "$failures") || fail "the user guide's script"
+for file in box-wing.nc table.png; do
+    [ -s "$scratch/$file" ] || fail "the user guide's script makes no $file"
+done
+
 # A script that does not find what it expects says so.
 printf 'wait\nexpect model-name no-such-model\n' > "$scratch/steps"
 view 1 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
@@ -193,7 +202,7 @@ grep -q "steps:.*says 'box-wing.obj', expected 'no-such-model'" "$scratch/err" |
 [ ! -e "$XDG_CONFIG_HOME/srpcore/viewer.ini" ] || fail 'a script left a state'
 printf '%s\n' 'wait' 'method raycast' 'parameter grid=77' 'enter mass 12.5' 'az-step 15' 'tab graphics' 'wait' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps" "$ROOT/models/cube.obj"
-printf '%s\n' 'wait' 'expect method raycast' 'expect grid 77' 'expect mass 12.5' 'expect az-step 15' 'method exact' 'wait' > "$scratch/steps"
+printf '%s\n' 'wait' 'expect method raycast' 'expect grid 77' 'expect mass 12.5' 'expect az-step 15' 'method exact' 'wait' 'expect message needs an OBJ file' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps"
 grep -q '^files=.*models/cube.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the file is not among the recent ones'
 grep -q '^tab=1' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the tab is not remembered'

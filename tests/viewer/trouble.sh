@@ -21,10 +21,22 @@ view 2 one.obj two.obj
 view 2 one.obj --model two.obj
 view 2 --actions "$scratch/no-such-file"
 view 2 --tab sideways --screenshot "$scratch/x.png"
-view 2 --size 12 --screenshot "$scratch/x.png"
+for size in 12 0x0 -5x800 1280x 99x800 1280x20001; do
+    view 2 --size "$size" "$ROOT/models/cube.obj"
+    grep -q -- "--size $size: expected WIDTHxHEIGHT" "$scratch/err" || fail "--size $size"
+done
 # A picture of what could not be opened is no success.
 view 1 --screenshot "$scratch/x.png" "$scratch/no-such.obj"
 view 1 --screenshot "$scratch/x.png" --model "$scratch/no-such.obj"
+
+# Nor is a script of which a step was refused and nothing expected that; the steps after it are done.
+printf '%s\n' 'enter mass -3' 'enter mass -4' 'expect message Mass -4' "save $scratch/no-such/x.png" \
+    'enter mass 5' wait 'expect mass 5' 'note the end' > "$scratch/steps"
+view 1 --actions "$scratch/steps" --tab graphics "$ROOT/models/cube.obj"
+grep -q '^the end$' "$scratch/out" || fail 'a refused step ended the script'
+[ "$(grep -c steps: "$scratch/err")" -eq 2 ] || fail 'not two refused steps'
+grep -q 'steps:1: Mass -3: expected' "$scratch/err" || fail 'the first step was refused, and that was not said'
+grep -q 'steps:4: ' "$scratch/err" || fail 'the picture cannot be written, and that was not said'
 
 # Files that are not there, or broken, and what comes after them.
 printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/broken.obj"
@@ -135,6 +147,7 @@ open $scratch/long.obj
 pause 0.05
 open $scratch/broken.obj
 open $ROOT/models/dish.obj
+wait
 screenshot $scratch/waited.png
 expect table cube.obj
 expect message Table 1: cube.obj
@@ -163,6 +176,7 @@ parameter diffuse=8
 wait
 compute-table
 pause 0.7
+screenshot $SHOTS/progress.png
 expect progress directions
 cancel
 wait
@@ -191,17 +205,21 @@ awk 'BEGIN {
 cat > "$scratch/steps" << END
 resize 1280 800
 wait
+expect message the material '' has no optics
 material =0.3,0.2
 wait
 expect model-facts 72000 triangles
 camera -40,24,1
+wait
 screenshot $SHOTS/large-1.png
 shadows
+wait
 screenshot $SHOTS/large-2.png
 shadows
 camera 30,10,1
 pause 0.05
 camera -40,24,1
+wait
 screenshot $SHOTS/large-3.png
 stall
 END
