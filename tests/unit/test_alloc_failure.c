@@ -488,6 +488,7 @@ START_TEST(a_cache_without_memory_stops_nobody) {
     long n = 0;
     params.directory = "test_alloc_failure.cache";
     params.flush_nodes = 1;
+    params.flush_share = INFINITY;
     assert_ok(srp_cache_open(&params, &log, &cache, &error), error);
     for (bool failed = true; failed; ++n) {
         srp_demand *demand = NULL;
