@@ -94,6 +94,11 @@ static void note_complaint_of_model(script *s) {
 /* ---- texts of widgets ---- */
 
 static char *text_of(GtkWidget *widget) {
+    if (GTK_IS_GL_AREA(widget)) { /* GTK writes into it why there is no picture */
+        GError *problem =
+            gtk_widget_get_mapped(widget) ? gtk_gl_area_get_error(GTK_GL_AREA(widget)) : NULL;
+        return g_strdup(problem != NULL ? problem->message : "");
+    }
     if (GTK_IS_LABEL(widget)) {
         return g_strdup(gtk_label_get_text(GTK_LABEL(widget)));
     }
