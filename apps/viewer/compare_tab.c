@@ -260,7 +260,7 @@ static void on_fit(GtkButton *button, gpointer user) {
 
 static GtkWidget *make_strip(pane *p) {
     static const char *const words[2] = {"_A", "_B"};
-    GtkWidget *box = ui_box(GTK_ORIENTATION_HORIZONTAL, 8);
+    GtkWidget *box = ui_strip(8);
     for (int k = 0; k < 2; ++k) {
         p->choice[k] = ui_choice(k == 0 ? "compare-a" : "compare-b", G_CALLBACK(on_choice), p);
         gtk_widget_set_hexpand(p->choice[k], TRUE);
@@ -302,7 +302,7 @@ GtkWidget *viewer_compare_tab(viewer *v) {
     gtk_widget_set_margin_start(p->facts, 12);
     gtk_widget_set_margin_top(p->facts, 4);
     g_object_set_data(G_OBJECT(v->window), "comparison-charts", p->charts);
-    gtk_box_append(GTK_BOX(box), ui_strip(make_strip(p)));
+    gtk_box_append(GTK_BOX(box), make_strip(p));
     gtk_box_append(GTK_BOX(box), p->facts);
     gtk_box_append(GTK_BOX(box), make_numbers(p));
     gtk_box_append(GTK_BOX(box), viewer_charts_widget(p->charts));
