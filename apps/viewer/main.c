@@ -69,6 +69,7 @@ static void begin(viewer *v) {
     v->shadows = true;
     v->table_shown = v->compared[0] = v->compared[1] = -1;
     v->charts_together = true;
+    v->plates_to_fit = 8;
     v->az_step_deg = v->el_step_deg = 10.0;
     v->asked_at = NAN;
     for (int k = 0; k < 4; ++k) {

@@ -213,7 +213,7 @@ GtkWidget *viewer_table_tab(viewer *v) {
     pane *p = g_new0(pane, 1);
     p->v = v;
     GtkWidget *box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
-    p->charts = viewer_charts_create(v, "chart", 2);
+    p->charts = viewer_charts_create(v, "chart");
     g_object_set_data(G_OBJECT(v->window), "table-charts", p->charts);
     gtk_box_append(GTK_BOX(box), make_strip(p));
     gtk_box_append(GTK_BOX(box), viewer_charts_widget(p->charts));

@@ -57,6 +57,7 @@ struct viewer {
     int compared[2];         /* -1: none */
     double chart_view[4][2]; /* azimuth and elevation of the eye of each surface [deg] */
     bool charts_together;
+    int plates_to_fit;
     double az_step_deg, el_step_deg;
     /* What there is to say. */
     char message[VIEWER_WORDS_SIZE];

@@ -106,6 +106,7 @@ tab compare
 compare-a 1
 fit 6
 wait
+expect plates-count 6
 expect compare-b 6 plates fitted
 expect message fitted to
 print vector-rms
@@ -134,7 +135,11 @@ seen 4-incidence.png 10 240 840 460 25 0.985
 seen 1-open.png 870 240 400 350 8 0.97
 seen 5-table.png 10 320 1260 440 60 0.95
 seen 6-second.png 10 320 1260 440 60 0.95
-seen 7-compare.png 10 440 1260 320 60 0.95
+for corner in '10 290' '440 290' '10 535' '440 535'; do
+    # shellcheck disable=SC2086 # two numbers
+    seen 7-compare.png $corner 410 225 40 0.95
+done
+seen 7-compare.png 870 290 400 230 8 0.97
 seen 8-dark.png 10 240 840 460 25 0.985
 for pair in '1-open 2-turn' '2-turn 3-arrows' '3-arrows 4-incidence' '1-open 8-dark' '5-table 6-second'; do
     read -r one other <<< "$pair"
