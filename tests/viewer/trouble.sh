@@ -119,6 +119,27 @@ END
 view 0 --actions "$scratch/steps" "$scratch/lost.obj"
 [ -z "$(value message)" ] || fail "with the MTL the message is '$(value message)'"
 
+# However many materials, they take one line; a third line is behind More.
+{
+    echo 'mtllib nowhere.mtl'
+    for k in 1 2 3 4 5 6 7 8 9 10; do
+        printf 'usemtl skin%d\nv %d 0 0\nv %d.5 0 0\nv %d 1.5 0\nf -3 -2 -1\n' $k $k $k $k
+    done
+} > "$scratch/many.obj"
+cat > "$scratch/steps" << END
+wait
+expect message the materials 'skin1', 'skin2',
+expect message 'skin7' and 3 others have no optics
+method cannonball
+wait
+expect message in Materials …
+expect whole-message needs Cr and Area
+END
+view 0 --actions "$scratch/steps" "$scratch/many.obj"
+sed -i '/skin[3-9]/,/^f/d; /skin10/,/^f/d' "$scratch/many.obj"
+printf '%s\n' wait "expect message the materials 'skin1' and 'skin2' have no optics" > "$scratch/steps"
+view 0 --actions "$scratch/steps" "$scratch/many.obj"
+
 # A spacecraft that takes long and cannot be read, and another one before it has been: nothing is said of it.
 # Others are opened while a table is computed, which goes on, and is of the one that it was asked for.
 {
