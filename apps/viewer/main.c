@@ -80,10 +80,22 @@ static void begin(viewer *v) {
     viewer_requests_begin(v);
 }
 
-static void end(viewer *v) {
-    viewer_requests_end(v);
+/* False when something still computes, and cannot be told to stop. */
+static bool end(viewer *v) {
+    if (!viewer_requests_end(v)) {
+        return false;
+    }
     viewer_session_destroy(v->session);
     g_ptr_array_unref(v->listeners);
+    return true;
+}
+
+/* In the midst of what computes, whose files (the cache) take their places whole or not at all.
+ * Other streams than these two may be in its hands. */
+static void end_at_once(int status) {
+    fflush(stdout);
+    fflush(stderr);
+    _Exit(status);
 }
 
 static void on_activate(GtkApplication *application, gpointer user) {
@@ -249,7 +261,9 @@ int main(int argc, char **argv) {
             g_signal_connect(s.v.application, "activate", G_CALLBACK(on_activate), &s);
             status = g_application_run(G_APPLICATION(s.v.application), 1, argv);
             status = status != 0 ? MACHINE_FAILED : s.v.exit_status;
-            end(&s.v);
+            if (!end(&s.v)) {
+                end_at_once(status);
+            }
             g_object_unref(s.v.application);
         }
     }

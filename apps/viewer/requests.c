@@ -16,11 +16,24 @@ void viewer_requests_begin(viewer *v) {
     v->requests.tables = viewer_worker_create("tables", g_main_context_default());
 }
 
-void viewer_requests_end(viewer *v) {
-    viewer_worker_destroy(v->requests.live);
-    viewer_worker_destroy(v->requests.batch);
-    viewer_worker_destroy(v->requests.tables);
+static const double END_SECONDS = 1.0; /* to wait for what runs */
+
+bool viewer_requests_end(viewer *v) {
+    viewer_worker *const workers[] = {v->requests.live, v->requests.batch, v->requests.tables};
+    const double until = viewer_seconds() + END_SECONDS;
+    for (size_t k = 0; k < G_N_ELEMENTS(workers); ++k) {
+        viewer_worker_end(workers[k]);
+    }
+    for (size_t k = 0; k < G_N_ELEMENTS(workers); ++k) {
+        if (!viewer_worker_wait(workers[k], fmax(until - viewer_seconds(), 0.0))) {
+            return false;
+        }
+    }
+    for (size_t k = 0; k < G_N_ELEMENTS(workers); ++k) {
+        viewer_worker_destroy(workers[k]);
+    }
     v->requests.live = v->requests.batch = v->requests.tables = NULL;
+    return true;
 }
 
 bool viewer_requests_busy(const viewer *v) {
@@ -392,4 +405,8 @@ void viewer_request_table(viewer *v) {
 void viewer_cancel_table(viewer *v) {
     viewer_worker_cancel(v->requests.batch, SLOT_TABLE);
     viewer_tell(v, CHANGED_BUSY);
+}
+
+bool viewer_table_is_cancelling(const viewer *v) {
+    return viewer_worker_is_cancelling(v->requests.batch, SLOT_TABLE);
 }

@@ -44,8 +44,9 @@ typedef struct viewer_requests {
 } viewer_requests;
 
 void viewer_requests_begin(viewer *v);
-/* Cancels and joins. */
-void viewer_requests_end(viewer *v);
+/* Cancels all, and waits for it to end, but not for long. False: something cannot be interrupted
+ * and goes on; what it may still use is left as it is. */
+bool viewer_requests_end(viewer *v);
 /* Is anything computed, or about to be shown? */
 bool viewer_requests_busy(const viewer *v);
 
@@ -56,5 +57,6 @@ void viewer_request_force(viewer *v);
 /* A table of the engine, with the steps of the viewer. */
 void viewer_request_table(viewer *v);
 void viewer_cancel_table(viewer *v);
+bool viewer_table_is_cancelling(const viewer *v);
 
 #endif

@@ -1,19 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#define _POSIX_C_SOURCE 200809L /* the clock that only goes forward */
 #include "worker.h"
 
+#include <errno.h>
+#include <math.h>
 #include <pthread.h>
+#include <time.h>
 
 struct viewer_worker {
     GThread *thread;
     GMainContext *context;
     pthread_mutex_t lock; /* not GLib's, which ThreadSanitizer does not know */
-    pthread_cond_t bell;
+    pthread_cond_t bell;  /* there is work, or none any more */
+    pthread_cond_t gone;  /* the thread has left */
     viewer_job *waiting[VIEWER_SLOTS];
     viewer_job *running;
     GQueue done; /* jobs to deliver, oldest first */
     GSource *delivery;
-    bool ending;
-    unsigned open[VIEWER_SLOTS]; /* jobs not yet released; the main thread's */
+    bool ending, left;
+    /* The main thread's. */
+    unsigned open[VIEWER_SLOTS]; /* jobs not yet released */
+    bool cancelling[VIEWER_SLOTS];
 };
 
 static viewer_job *next_job(viewer_worker *worker) {
@@ -39,7 +46,9 @@ static gboolean deliver(gpointer user) {
         if (job == NULL) {
             return G_SOURCE_REMOVE;
         }
-        --worker->open[job->slot];
+        if (--worker->open[job->slot] == 0) {
+            worker->cancelling[job->slot] = false;
+        }
         if (job->deliver != NULL) {
             job->deliver(job);
         }
@@ -76,6 +85,8 @@ static gpointer work(gpointer user) {
         worker->running = NULL;
         hand_over(worker, job);
     }
+    worker->left = true;
+    pthread_cond_signal(&worker->gone);
     pthread_mutex_unlock(&worker->lock);
     return NULL;
 }
@@ -85,15 +96,17 @@ viewer_worker *viewer_worker_create(const char *name, GMainContext *context) {
     worker->context = context;
     pthread_mutex_init(&worker->lock, NULL);
     pthread_cond_init(&worker->bell, NULL);
+    pthread_condattr_t clock;
+    pthread_condattr_init(&clock);
+    pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
+    pthread_cond_init(&worker->gone, &clock);
+    pthread_condattr_destroy(&clock);
     g_queue_init(&worker->done);
     worker->thread = g_thread_new(name, work, worker);
     return worker;
 }
 
-void viewer_worker_destroy(viewer_worker *worker) {
-    if (worker == NULL) {
-        return;
-    }
+void viewer_worker_end(viewer_worker *worker) {
     pthread_mutex_lock(&worker->lock);
     worker->ending = true;
     if (worker->running != NULL) {
@@ -105,6 +118,30 @@ void viewer_worker_destroy(viewer_worker *worker) {
     }
     pthread_cond_signal(&worker->bell);
     pthread_mutex_unlock(&worker->lock);
+}
+
+bool viewer_worker_wait(viewer_worker *worker, double seconds) {
+    struct timespec until;
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    double whole = floor(seconds), nanoseconds = (double)until.tv_nsec + 1e9 * (seconds - whole);
+    bool more = nanoseconds >= 1e9;
+    until.tv_sec += (time_t)whole + more;
+    until.tv_nsec = (long)(nanoseconds - (more ? 1e9 : 0.0));
+    int status = 0;
+    pthread_mutex_lock(&worker->lock);
+    while (!worker->left && status != ETIMEDOUT) {
+        status = pthread_cond_timedwait(&worker->gone, &worker->lock, &until);
+    }
+    bool left = worker->left;
+    pthread_mutex_unlock(&worker->lock);
+    return left;
+}
+
+void viewer_worker_destroy(viewer_worker *worker) {
+    if (worker == NULL) {
+        return;
+    }
+    viewer_worker_end(worker);
     g_thread_join(worker->thread);
     for (viewer_job *job; (job = next_job(worker)) != NULL;) {
         job->release(job);
@@ -113,12 +150,14 @@ void viewer_worker_destroy(viewer_worker *worker) {
         job->release(job);
     }
     pthread_cond_destroy(&worker->bell);
+    pthread_cond_destroy(&worker->gone);
     pthread_mutex_destroy(&worker->lock);
     g_free(worker);
 }
 
 void viewer_worker_submit(viewer_worker *worker, unsigned slot, viewer_job *job) {
     job->slot = slot;
+    worker->cancelling[slot] = false;
     atomic_init(&job->cancel, false);
     pthread_mutex_lock(&worker->lock);
     viewer_job *old = worker->waiting[slot];
@@ -144,8 +183,13 @@ void viewer_worker_cancel(viewer_worker *worker, unsigned slot) {
         --worker->open[slot];
         old->release(old);
     }
+    worker->cancelling[slot] = worker->open[slot] > 0;
 }
 
 bool viewer_worker_is_busy(const viewer_worker *worker, unsigned slot) {
     return worker->open[slot] > 0;
+}
+
+bool viewer_worker_is_cancelling(const viewer_worker *worker, unsigned slot) {
+    return worker->cancelling[slot];
 }

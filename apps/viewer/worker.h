@@ -29,7 +29,11 @@ enum { VIEWER_SLOTS = 4 };
 typedef struct viewer_worker viewer_worker;
 
 viewer_worker *viewer_worker_create(const char *name, GMainContext *context);
-/* Cancels what runs, waits for it to end, drops everything else; nothing is delivered any more. */
+/* Cancels what runs, and begins nothing more; nothing is delivered any more. Does not wait. */
+void viewer_worker_end(viewer_worker *worker);
+/* After that: does the thread end within so many seconds? */
+bool viewer_worker_wait(viewer_worker *worker, double seconds);
+/* Both, however long it takes; then drops everything. NULL is fine. */
 void viewer_worker_destroy(viewer_worker *worker);
 
 /* Takes the job over. Slots with lower numbers come first. */
@@ -39,5 +43,7 @@ void viewer_worker_submit(viewer_worker *worker, unsigned slot, viewer_job *job)
 void viewer_worker_cancel(viewer_worker *worker, unsigned slot);
 /* Does a job of this slot wait, run, or wait to be delivered? */
 bool viewer_worker_is_busy(const viewer_worker *worker, unsigned slot);
+/* Is what is busy there but a job that was cancelled and has not ended yet? */
+bool viewer_worker_is_cancelling(const viewer_worker *worker, unsigned slot);
 
 #endif

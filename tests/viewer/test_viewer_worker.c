@@ -14,14 +14,15 @@ typedef struct probe {
     viewer_job job;
     counts *to;
     int number;
-    bool waits; /* until it is cancelled, or `go` */
+    bool waits;    /* until it is cancelled, or `go` */
+    bool stubborn; /* until `go` alone */
     atomic_bool *go;
 } probe;
 
 static void run(viewer_job *base) {
     probe *job = (probe *)base;
     atomic_fetch_add(&job->to->ran, 1);
-    while (job->waits && !atomic_load(&job->job.cancel) &&
+    while (job->waits && (job->stubborn || !atomic_load(&job->job.cancel)) &&
            (job->go == NULL || !atomic_load(job->go))) {
         g_usleep(200);
     }
@@ -50,6 +51,12 @@ static viewer_job *make(counts *to, int number, bool waits, atomic_bool *go) {
     job->waits = waits;
     job->go = go;
     return &job->job;
+}
+
+static viewer_job *make_stubborn(counts *to, atomic_bool *go) {
+    viewer_job *job = make(to, 0, true, go);
+    ((probe *)job)->stubborn = true;
+    return job;
 }
 
 static void wait_until_idle(viewer_worker *worker, GMainContext *context) {
@@ -114,6 +121,60 @@ START_TEST(cancelled_job_ends_and_is_delivered) {
 }
 END_TEST
 
+/* What was cancelled and has not ended yet is told from what works. */
+START_TEST(cancelling_is_seen) {
+    GMainContext *context = g_main_context_new();
+    viewer_worker *worker = viewer_worker_create("test", context);
+    counts c = {0};
+    atomic_bool go = false;
+    viewer_worker_cancel(worker, 1);
+    ck_assert(!viewer_worker_is_cancelling(worker, 1)); /* nothing is there */
+    viewer_worker_submit(worker, 1, make_stubborn(&c, &go));
+    viewer_worker_submit(worker, 2, make(&c, 1, false, NULL));
+    wait_until_runs(&c, 1);
+    ck_assert(!viewer_worker_is_cancelling(worker, 1));
+    viewer_worker_cancel(worker, 2);
+    ck_assert(!viewer_worker_is_cancelling(worker, 2)); /* it only waited */
+    viewer_worker_cancel(worker, 1);
+    ck_assert(viewer_worker_is_busy(worker, 1) && viewer_worker_is_cancelling(worker, 1));
+    viewer_worker_submit(worker, 1, make(&c, 2, false, NULL));
+    ck_assert(!viewer_worker_is_cancelling(worker, 1)); /* something else is wanted now */
+    viewer_worker_cancel(worker, 1);
+    ck_assert(viewer_worker_is_cancelling(worker, 1));
+    atomic_store(&go, true);
+    wait_until_idle(worker, context);
+    ck_assert(!viewer_worker_is_cancelling(worker, 1));
+    ck_assert_int_eq(c.released, 3);
+    viewer_worker_destroy(worker);
+    g_main_context_unref(context);
+}
+END_TEST
+
+/* What cannot be interrupted does not hold up whoever asks for an end. */
+START_TEST(an_end_need_not_be_waited_for) {
+    GMainContext *context = g_main_context_new();
+    viewer_worker *worker = viewer_worker_create("test", context);
+    counts c = {0};
+    atomic_bool go = false;
+    viewer_worker_submit(worker, 1, make_stubborn(&c, &go));
+    viewer_worker_submit(worker, 2, make(&c, 1, false, NULL));
+    wait_until_runs(&c, 1);
+    viewer_worker_end(worker);
+    gint64 began = g_get_monotonic_time();
+    ck_assert(!viewer_worker_wait(worker, 0.0));
+    ck_assert(!viewer_worker_wait(worker, 0.3));
+    double seconds = 1e-6 * (double)(g_get_monotonic_time() - began);
+    ck_assert_msg(seconds > 0.29 && seconds < 10.0, "waits for %g s", seconds);
+    atomic_store(&go, true);
+    ck_assert(viewer_worker_wait(worker, 60.0));
+    ck_assert(viewer_worker_wait(worker, 0.0));
+    viewer_worker_destroy(worker);
+    ck_assert_int_eq(atomic_load(&c.ran), 1);
+    ck_assert_int_eq(c.released, 2);
+    g_main_context_unref(context);
+}
+END_TEST
+
 START_TEST(low_slots_come_first) {
     GMainContext *context = g_main_context_new();
     viewer_worker *worker = viewer_worker_create("test", context);
@@ -163,6 +224,8 @@ int main(void) {
     tcase_set_timeout(cases, 120);
     tcase_add_test(cases, newest_request_wins);
     tcase_add_test(cases, cancelled_job_ends_and_is_delivered);
+    tcase_add_test(cases, cancelling_is_seen);
+    tcase_add_test(cases, an_end_need_not_be_waited_for);
     tcase_add_test(cases, low_slots_come_first);
     tcase_add_test(cases, end_at_any_time);
     suite_add_tcase(suite, cases);
