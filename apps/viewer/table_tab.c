@@ -40,7 +40,8 @@ static void show_progress(pane *p) {
     } else {
         gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(p->progress), 0.0);
     }
-    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), text);
+    bool cancelling = viewer_table_is_cancelling(p->v);
+    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), cancelling ? "Cancelling …" : text);
 }
 
 static gboolean on_tick(gpointer user) {
@@ -55,10 +56,12 @@ static gboolean on_tick(gpointer user) {
 
 static void show_busy(pane *p) {
     bool busy = viewer_worker_is_busy(p->v->requests.batch, SLOT_TABLE);
-    gtk_widget_set_sensitive(p->cancel, busy);
+    gtk_widget_set_sensitive(p->cancel, busy && !viewer_table_is_cancelling(p->v));
     gtk_widget_set_visible(p->progress, busy);
-    if (busy && p->timer == 0) {
+    if (busy) {
         show_progress(p);
+    }
+    if (busy && p->timer == 0) {
         p->timer = g_timeout_add(PROGRESS_MS, on_tick, p);
     }
 }
@@ -147,12 +150,7 @@ static GtkWidget *make_strip(pane *p) {
     p->el_step = step_button(p, "el-step");
     p->start = ui_button("_Start", "compute-table", "Compute a table of all directions (Ctrl+T)");
     p->cancel = ui_button("C_ancel", "cancel", "Stop (Ctrl+.)");
-    p->progress = gtk_progress_bar_new();
-    gtk_widget_set_name(p->progress, "progress");
-    ui_name(p->progress, "Progress of the table");
-    gtk_progress_bar_set_show_text(GTK_PROGRESS_BAR(p->progress), TRUE);
-    gtk_widget_set_valign(p->progress, GTK_ALIGN_CENTER);
-    gtk_widget_set_size_request(p->progress, 150, -1);
+    p->progress = ui_progress("progress", "Progress of the table");
     p->table = ui_choice("table", G_CALLBACK(on_choice), p);
     gtk_widget_set_hexpand(p->table, TRUE);
     gtk_widget_set_size_request(p->table, 240, -1);

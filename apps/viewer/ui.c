@@ -68,6 +68,16 @@ void ui_name(GtkWidget *widget, const char *words) {
                                    -1);
 }
 
+GtkWidget *ui_progress(const char *name, const char *called) {
+    GtkWidget *bar = gtk_progress_bar_new();
+    gtk_widget_set_name(bar, name);
+    ui_name(bar, called);
+    gtk_progress_bar_set_show_text(GTK_PROGRESS_BAR(bar), TRUE);
+    gtk_widget_set_valign(bar, GTK_ALIGN_CENTER);
+    gtk_widget_set_size_request(bar, 150, -1);
+    return bar;
+}
+
 GtkWidget *ui_strip(int spacing) {
     GtkWidget *strip = ui_box(GTK_ORIENTATION_HORIZONTAL, spacing);
     gtk_widget_set_layout_manager(strip, viewer_wrap_new(spacing, false));

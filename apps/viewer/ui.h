@@ -19,6 +19,8 @@ GtkWidget *ui_value(const char *name);
 GtkWidget *ui_mnemonic(const char *text, GtkWidget *target);
 /* A button "_Text" that activates the action "win.name". */
 GtkWidget *ui_button(const char *text, const char *action, const char *tip);
+/* A bar with words in it; `called`: what a screen reader calls it. */
+GtkWidget *ui_progress(const char *name, const char *called);
 /* What a screen reader calls a widget that no words beside it name. */
 void ui_name(GtkWidget *widget, const char *words);
 /* A box whose children go on in further lines where the window is too narrow for them. */
