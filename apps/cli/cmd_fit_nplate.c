@@ -264,7 +264,8 @@ static int load(fit_job *job) {
 /* ---- the fit ---- */
 
 static cli_fit_status solve(fit_job *job) {
-    return cli_plate_fit_solve(&job->samples, job->normals.normal, job->normals.count, &job->fit);
+    return cli_plate_fit_solve(&job->samples, job->normals.normal, job->normals.count, NULL,
+                               &job->fit);
 }
 
 /* The mesh may have more normals than the directions can tell apart: unless the user wants a
@@ -347,7 +348,7 @@ static int fit(fit_job *job) {
                                                                            : (size_t)PLATES_AUTO;
         snprintf(job->normals.words, sizeof job->normals.words,
                  "searched: a better set may exist, try other --plates, or give --normals");
-        status = cli_table_search(job->table, job->path, &job->samples, job->normals.count,
+        status = cli_table_search(job->table, job->path, &job->samples, job->normals.count, NULL,
                                   job->normals.normal);
     } else if (wants(job, "mesh")) {
         status = cli_normals_of_mesh(job->scene, job->options->plates, &job->normals);

@@ -28,6 +28,7 @@ enum { BLOCK_MIN = 64 };
 
 typedef struct algebra {
     const cli_samples *samples;
+    const cli_fit_watch *watch;
     size_t columns, block; /* unknowns; samples of a block */
     gsl_matrix *x;        /* (columns + 3 block, columns) triangle of what was taken in, new rows */
     gsl_vector *y;        /* (columns + 3 block) their right side */
@@ -50,9 +51,11 @@ static void algebra_free(algebra *g) {
     gsl_matrix_free(g->jacobian);
 }
 
-static bool algebra_make(algebra *g, const cli_samples *samples, size_t count) {
+static bool algebra_make(algebra *g, const cli_samples *samples, const cli_fit_watch *watch,
+                         size_t count) {
     size_t n = U * count, block = 2 * count > BLOCK_MIN ? 2 * count : BLOCK_MIN;
     *g = (algebra){samples,
+                   watch,
                    n,
                    block,
                    gsl_matrix_alloc(n + 3 * block, n),
@@ -152,6 +155,9 @@ static cli_fit_status triangulate(algebra *g, const srp_vec3 *normals) {
     for (size_t k = 0, count; k < g->samples->count; k += count) {
         size_t left = g->samples->count - k;
         count = left < g->block ? left : g->block;
+        if (!cli_fit_goes_on(g->watch)) {
+            return CLI_FIT_CANCELLED;
+        }
         set_rows(g, normals, k, count);
         if (!absorb(g, 3 * count)) {
             return CLI_FIT_NOT_FINITE;
@@ -223,12 +229,15 @@ static void set_jacobian(algebra *g) {
  * (G^-1 x_i)(G^-1 x_i)^T, and the weighted sum of squared residuals the mean
  * q (sum of w_i - sum of w_i^2 x_i G^-1 x_i).
  */
-static void add_noise(algebra *g, const srp_vec3 *normals, double *freedom) {
+static cli_fit_status add_noise(algebra *g, const srp_vec3 *normals, double *freedom) {
     const cli_samples *samples = g->samples;
     gsl_matrix_set_zero(g->scratch);
     *freedom = 0.0;
     for (size_t k = 0; k < samples->count; ++k) {
         double weight = samples->at[k].weight;
+        if (!cli_fit_goes_on(g->watch)) {
+            return CLI_FIT_CANCELLED;
+        }
         for (int c = 0; c < 3; ++c) {
             double norm;
             for (size_t p = 0; p < g->columns / U; ++p) {
@@ -254,11 +263,14 @@ static void add_noise(algebra *g, const srp_vec3 *normals, double *freedom) {
     gsl_matrix_memcpy(g->spread, g->scratch);
     gsl_blas_dtrsm(CblasLeft, CblasUpper, CblasNoTrans, CblasNonUnit, 1.0, g->r, g->spread);
     gsl_blas_dtrsm(CblasRight, CblasUpper, CblasTrans, CblasNonUnit, 1.0, g->r, g->spread);
+    return CLI_FIT_DONE;
 }
 
-static void find_covariance(algebra *g, const srp_vec3 *normals, cli_plate_fit *fit) {
+static cli_fit_status find_covariance(algebra *g, const srp_vec3 *normals, cli_plate_fit *fit) {
     double freedom, squares = 0.0;
-    add_noise(g, normals, &freedom);
+    if (add_noise(g, normals, &freedom) != CLI_FIT_DONE) {
+        return CLI_FIT_CANCELLED;
+    }
     for (size_t k = 0; k < g->samples->count; ++k) {
         srp_vec3 off = srp_vec3_sub(fit->model[k], g->samples->value[k]);
         squares += g->samples->at[k].weight * srp_vec3_dot(off, off);
@@ -269,6 +281,7 @@ static void find_covariance(algebra *g, const srp_vec3 *normals, cli_plate_fit *
     gsl_matrix_view out = gsl_matrix_view_array(fit->covariance, g->columns, g->columns);
     gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, variance, g->jacobian, g->spread, 0.0, g->scratch);
     gsl_blas_dgemm(CblasNoTrans, CblasTrans, 1.0, g->scratch, g->jacobian, 0.0, &out.matrix);
+    return CLI_FIT_DONE;
 }
 
 /* ---- the fit ---- */
@@ -312,7 +325,7 @@ static bool all_finite(const cli_samples *samples) {
 }
 
 static cli_fit_status solve(const cli_samples *samples, const srp_vec3 *normals, size_t count,
-                            bool with_covariance, cli_plate_fit *out) {
+                            const cli_fit_watch *watch, bool with_covariance, cli_plate_fit *out) {
     if (3 * samples->count <= U * count) {
         return CLI_FIT_TOO_FEW;
     }
@@ -324,7 +337,8 @@ static cli_fit_status solve(const cli_samples *samples, const srp_vec3 *normals,
     cli_plate_fit fit = {0, NULL, NULL, 0.0, false, NULL};
     srp_vec3 *unit = calloc(count, sizeof *unit);
     cli_fit_status status = CLI_FIT_NO_MEMORY;
-    if (algebra_make(&g, samples, count) && fit_make(&fit, count, samples->count) && unit != NULL) {
+    if (algebra_make(&g, samples, watch, count) && fit_make(&fit, count, samples->count) &&
+        unit != NULL) {
         for (size_t p = 0; p < count; ++p) {
             unit[p] = srp_vec3_scale(1.0 / srp_vec3_norm(normals[p]), normals[p]);
         }
@@ -332,9 +346,7 @@ static cli_fit_status solve(const cli_samples *samples, const srp_vec3 *normals,
     }
     if (status == CLI_FIT_DONE) {
         set_plates(&g, unit, &fit);
-        if (with_covariance) {
-            find_covariance(&g, unit, &fit);
-        }
+        status = with_covariance ? find_covariance(&g, unit, &fit) : CLI_FIT_DONE;
     }
     gsl_set_error_handler(handler);
     algebra_free(&g);
@@ -348,13 +360,14 @@ static cli_fit_status solve(const cli_samples *samples, const srp_vec3 *normals,
 }
 
 cli_fit_status cli_plate_fit_solve(const cli_samples *samples, const srp_vec3 *normals,
-                                   size_t count, cli_plate_fit *out) {
-    return solve(samples, normals, count, true, out);
+                                   size_t count, const cli_fit_watch *watch, cli_plate_fit *out) {
+    return solve(samples, normals, count, watch, true, out);
 }
 
 cli_fit_status cli_plate_fit_solve_only(const cli_samples *samples, const srp_vec3 *normals,
-                                        size_t count, cli_plate_fit *out) {
-    return solve(samples, normals, count, false, out);
+                                        size_t count, const cli_fit_watch *watch,
+                                        cli_plate_fit *out) {
+    return solve(samples, normals, count, watch, false, out);
 }
 
 bool cli_plate_fit_exists(void) {

@@ -26,8 +26,20 @@ typedef enum cli_fit_status {
     CLI_FIT_NO_MEMORY,
     CLI_FIT_TOO_FEW,   /* fewer numbers than unknowns */
     CLI_FIT_AMBIGUOUS, /* some plates cannot be told apart in these directions */
-    CLI_FIT_NOT_FINITE
+    CLI_FIT_NOT_FINITE,
+    CLI_FIT_CANCELLED /* its watch did not want it to go on */
 } cli_fit_status;
+
+/* Asked many times a second, on the thread that fits; once false, it stays so. NULL in place of a
+ * watch: nobody cancels. */
+typedef struct cli_fit_watch {
+    bool (*go_on)(void *user);
+    void *user;
+} cli_fit_watch;
+
+static inline bool cli_fit_goes_on(const cli_fit_watch *watch) {
+    return watch == NULL || watch->go_on(watch->user);
+}
 
 enum { CLI_FIT_AREA, CLI_FIT_RHO_S, CLI_FIT_RHO_D, CLI_FIT_UNKNOWNS };
 
@@ -60,10 +72,11 @@ srp_vec3 cli_plates_force(const srp_plate *plates, size_t count, srp_vec3 s);
 /* Fits plates with these normals (count, not 0) to the samples, each by its weight. *out is freed
  * by cli_plate_fit_free(), and as it was unless the fit is done. */
 cli_fit_status cli_plate_fit_solve(const cli_samples *samples, const srp_vec3 *normals,
-                                   size_t count, cli_plate_fit *out);
+                                   size_t count, const cli_fit_watch *watch, cli_plate_fit *out);
 /* The same without covariance and noise, which stay 0: for a search, which wants neither. */
 cli_fit_status cli_plate_fit_solve_only(const cli_samples *samples, const srp_vec3 *normals,
-                                        size_t count, cli_plate_fit *out);
+                                        size_t count, const cli_fit_watch *watch,
+                                        cli_plate_fit *out);
 void cli_plate_fit_free(cli_plate_fit *fit);
 
 /* Standard deviation of a fitted number, CLI_FIT_AREA, ... of `plate`. */
@@ -77,6 +90,7 @@ double cli_plate_fit_sigma(const cli_plate_fit *fit, size_t plate, int unknown);
  * in the end normals: (count), written only when done.
  */
 cli_fit_status cli_plate_normals_search(const cli_samples *search, const cli_samples *all,
-                                        size_t count, srp_vec3 *normals);
+                                        size_t count, const cli_fit_watch *watch,
+                                        srp_vec3 *normals);
 
 #endif

@@ -118,12 +118,12 @@ static srp_vec3 tilted(srp_vec3 n, size_t plate) {
 }
 
 /* `residual` (samples): what is left to explain. Normals nearer than 10 degrees are taken. */
-static srp_vec3 best_candidate(const cli_samples *samples, const srp_vec3 *residual,
-                               const srp_vec3 *normals, size_t count) {
+static srp_vec3 best_candidate(const cli_samples *samples, const cli_fit_watch *watch,
+                               const srp_vec3 *residual, const srp_vec3 *normals, size_t count) {
     const double near = cos(10.0 * SRP_RAD_PER_DEG);
     double most = -1.0;
     srp_vec3 best = {0.0, 0.0, 1.0};
-    for (size_t c = 0; c < AXES + SPIRAL; ++c) {
+    for (size_t c = 0; c < AXES + SPIRAL && cli_fit_goes_on(watch); ++c) {
         srp_vec3 normal = candidate(c);
         bool taken = false;
         for (size_t p = 0; p < count; ++p) {
@@ -217,8 +217,9 @@ static void add_direction(turning *t, double weight, srp_vec3 off, const size_t 
 }
 
 /* Plates that the Sun is not in front of have no part in a direction: about half of them. */
-static void sum_directions(turning *t, const cli_samples *samples, const cli_plate_fit *fit) {
-    for (size_t k = 0; k < samples->count; ++k) {
+static void sum_directions(turning *t, const cli_samples *samples, const cli_fit_watch *watch,
+                           const cli_plate_fit *fit) {
+    for (size_t k = 0; k < samples->count && cli_fit_goes_on(watch); ++k) {
         srp_vec3 off = srp_vec3_sub(samples->value[k], fit->model[k]), d[CLI_NORMALS_MAX][5];
         size_t lit[CLI_NORMALS_MAX], lit_count = 0;
         for (size_t p = 0; p < t->count; ++p) {
@@ -231,13 +232,14 @@ static void sum_directions(turning *t, const cli_samples *samples, const cli_pla
     }
 }
 
-static void set_normal_equations(turning *t, const cli_samples *samples, const cli_plate_fit *fit) {
+static void set_normal_equations(turning *t, const cli_samples *samples, const cli_fit_watch *watch,
+                                 const cli_plate_fit *fit) {
     gsl_matrix_set_zero(t->normal);
     gsl_vector_set_zero(t->gradient);
     for (size_t p = 0; p < t->count; ++p) {
         across(fit->plates[p].normal, &t->tangent[2 * p]);
     }
-    sum_directions(t, samples, fit);
+    sum_directions(t, samples, watch, fit);
     /* Unknowns at their bound stay there, and plates without area are not turned. */
     for (size_t p = 0; p < t->count; ++p) {
         const srp_plate *plate = &fit->plates[p];
@@ -285,8 +287,14 @@ static bool set_trial(turning *t, const cli_plate_fit *fit, double damping) {
     return true;
 }
 
+/* Does this end the search? Plates that cannot be told apart only end one way of searching. */
+static bool ends_all(cli_fit_status status) {
+    return status == CLI_FIT_NO_MEMORY || status == CLI_FIT_CANCELLED;
+}
+
 /* Turns the normals of *fit, in place, while that helps. */
-static cli_fit_status turn(const cli_samples *samples, cli_plate_fit *fit, int turns) {
+static cli_fit_status turn(const cli_samples *samples, const cli_fit_watch *watch,
+                           cli_plate_fit *fit, int turns) {
     turning t;
     if (!turning_make(&t, fit->count)) {
         turning_free(&t);
@@ -298,13 +306,17 @@ static cli_fit_status turn(const cli_samples *samples, cli_plate_fit *fit, int t
     for (int k = 0; k < turns && damping < 1e8; ++k) {
         cli_plate_fit trial;
         if (fresh) {
-            set_normal_equations(&t, samples, fit);
+            set_normal_equations(&t, samples, watch, fit);
+        }
+        if (!cli_fit_goes_on(watch)) {
+            status = CLI_FIT_CANCELLED;
+            break;
         }
         fresh = false;
         status = set_trial(&t, fit, damping)
-                     ? cli_plate_fit_solve_only(samples, t.trial, fit->count, &trial)
+                     ? cli_plate_fit_solve_only(samples, t.trial, fit->count, watch, &trial)
                      : CLI_FIT_AMBIGUOUS;
-        if (status == CLI_FIT_NO_MEMORY) {
+        if (ends_all(status)) {
             break;
         }
         double then = status == CLI_FIT_DONE ? squares_of(samples, &trial) : (double)INFINITY;
@@ -326,20 +338,20 @@ static cli_fit_status turn(const cli_samples *samples, cli_plate_fit *fit, int t
         }
     }
     turning_free(&t);
-    return status == CLI_FIT_NO_MEMORY ? status : CLI_FIT_DONE;
+    return ends_all(status) ? status : CLI_FIT_DONE;
 }
 
 /* ---- the search ---- */
 
 /* Fits, turns, and takes the normals over. */
-static cli_fit_status settle(const cli_samples *samples, srp_vec3 *normals, size_t count, int turns,
-                             cli_plate_fit *out) {
+static cli_fit_status settle(const cli_samples *samples, const cli_fit_watch *watch,
+                             srp_vec3 *normals, size_t count, int turns, cli_plate_fit *out) {
     cli_plate_fit fit;
-    cli_fit_status status = cli_plate_fit_solve_only(samples, normals, count, &fit);
+    cli_fit_status status = cli_plate_fit_solve_only(samples, normals, count, watch, &fit);
     if (status != CLI_FIT_DONE) {
         return status;
     }
-    status = turn(samples, &fit, turns);
+    status = turn(samples, watch, &fit, turns);
     for (size_t p = 0; p < count && status == CLI_FIT_DONE; ++p) {
         normals[p] = fit.plates[p].normal;
     }
@@ -358,13 +370,13 @@ static void set_residual(const cli_samples *samples, const cli_plate_fit *fit, s
 }
 
 /* From no plate to `count`. */
-static cli_fit_status grow(const cli_samples *samples, size_t count, srp_vec3 *normals,
-                           srp_vec3 *residual) {
+static cli_fit_status grow(const cli_samples *samples, const cli_fit_watch *watch, size_t count,
+                           srp_vec3 *normals, srp_vec3 *residual) {
     memcpy(residual, samples->value, samples->count * sizeof *residual);
     for (size_t p = 0; p < count; ++p) {
         cli_plate_fit fit;
-        normals[p] = best_candidate(samples, residual, normals, p);
-        cli_fit_status status = settle(samples, normals, p + 1, TURNS_BETWEEN, &fit);
+        normals[p] = best_candidate(samples, watch, residual, normals, p);
+        cli_fit_status status = settle(samples, watch, normals, p + 1, TURNS_BETWEEN, &fit);
         if (status != CLI_FIT_DONE) {
             return status;
         }
@@ -375,22 +387,22 @@ static cli_fit_status grow(const cli_samples *samples, size_t count, srp_vec3 *n
 }
 
 /* Takes plate p out and searches it anew; the better of the two stays. *squares is updated. */
-static cli_fit_status exchange(const cli_samples *samples, size_t count, size_t p,
-                               srp_vec3 *normals, srp_vec3 *residual, srp_vec3 *trial,
+static cli_fit_status exchange(const cli_samples *samples, const cli_fit_watch *watch, size_t count,
+                               size_t p, srp_vec3 *normals, srp_vec3 *residual, srp_vec3 *trial,
                                double *squares) {
     cli_plate_fit fit;
     memcpy(trial, normals, count * sizeof *trial);
     trial[p] = trial[count - 1];
-    cli_fit_status status = cli_plate_fit_solve_only(samples, trial, count - 1, &fit);
+    cli_fit_status status = cli_plate_fit_solve_only(samples, trial, count - 1, watch, &fit);
     if (status != CLI_FIT_DONE) {
         return status;
     }
     set_residual(samples, &fit, residual);
     cli_plate_fit_free(&fit);
-    trial[count - 1] = best_candidate(samples, residual, trial, count - 1);
-    status = settle(samples, trial, count, TURNS_BETWEEN, &fit);
+    trial[count - 1] = best_candidate(samples, watch, residual, trial, count - 1);
+    status = settle(samples, watch, trial, count, TURNS_BETWEEN, &fit);
     if (status != CLI_FIT_DONE) {
-        return status == CLI_FIT_NO_MEMORY ? status : CLI_FIT_DONE;
+        return ends_all(status) ? status : CLI_FIT_DONE;
     }
     double now = squares_of(samples, &fit);
     if (now < 0.999 * *squares) {
@@ -401,23 +413,24 @@ static cli_fit_status exchange(const cli_samples *samples, size_t count, size_t 
     return CLI_FIT_DONE;
 }
 
-static cli_fit_status improve(const cli_samples *samples, size_t count, srp_vec3 *normals,
-                              srp_vec3 *residual, srp_vec3 *trial) {
+static cli_fit_status improve(const cli_samples *samples, const cli_fit_watch *watch, size_t count,
+                              srp_vec3 *normals, srp_vec3 *residual, srp_vec3 *trial) {
     cli_plate_fit fit;
-    cli_fit_status status = settle(samples, normals, count, TURNS, &fit);
+    cli_fit_status status = settle(samples, watch, normals, count, TURNS, &fit);
     if (status != CLI_FIT_DONE) {
         return status;
     }
     double squares = squares_of(samples, &fit);
     cli_plate_fit_free(&fit);
     for (size_t k = 0; k < EXCHANGES * count && count > 1 && status == CLI_FIT_DONE; ++k) {
-        status = exchange(samples, count, k % count, normals, residual, trial, &squares);
+        status = exchange(samples, watch, count, k % count, normals, residual, trial, &squares);
     }
     return status;
 }
 
 cli_fit_status cli_plate_normals_search(const cli_samples *search, const cli_samples *all,
-                                        size_t count, srp_vec3 *normals) {
+                                        size_t count, const cli_fit_watch *watch,
+                                        srp_vec3 *normals) {
     if (3 * search->count <= 5 * count || count > CLI_NORMALS_MAX) {
         return CLI_FIT_TOO_FEW;
     }
@@ -426,14 +439,14 @@ cli_fit_status cli_plate_normals_search(const cli_samples *search, const cli_sam
     srp_vec3 *residual = calloc(search->count, sizeof *residual);
     cli_fit_status status = CLI_FIT_NO_MEMORY;
     if (found != NULL && trial != NULL && residual != NULL) {
-        status = grow(search, count, found, residual);
+        status = grow(search, watch, count, found, residual);
         if (status == CLI_FIT_DONE) {
-            status = improve(search, count, found, residual, trial);
+            status = improve(search, watch, count, found, residual, trial);
         }
     }
     cli_plate_fit fit;
     if (status == CLI_FIT_DONE) {
-        status = settle(all, found, count, TURNS, &fit);
+        status = settle(all, watch, found, count, TURNS, &fit);
     }
     if (status == CLI_FIT_DONE) {
         cli_plate_fit_free(&fit);

@@ -21,6 +21,8 @@ int cli_table_explain(const char *name, const cli_samples *samples, cli_fit_stat
     case CLI_FIT_NOT_FINITE:
         cli_say_of_file("%s: holds numbers that are not finite", name);
         return CLI_BAD_INPUT;
+    case CLI_FIT_CANCELLED:
+        return CLI_MACHINE_FAILED; /* who cancels knows */
     case CLI_FIT_AMBIGUOUS:
     default:
         if (plates == 1) {
@@ -54,19 +56,19 @@ static srp_grid coarser(srp_grid grid) {
 }
 
 int cli_table_search(const srp_table *table, const char *name, const cli_samples *samples,
-                     size_t count, srp_vec3 *normals) {
+                     size_t count, const cli_fit_watch *watch, srp_vec3 *normals) {
     cli_samples few;
     if (!cli_samples_take(table, coarser(samples->grid), false, &few)) {
         cli_say("no memory");
         return CLI_MACHINE_FAILED;
     }
-    cli_fit_status status = cli_plate_normals_search(&few, samples, count, normals);
+    cli_fit_status status = cli_plate_normals_search(&few, samples, count, watch, normals);
     cli_samples_free(&few);
     return cli_table_explain(name, samples, status, count);
 }
 
 int cli_table_fit(const char *name, const cli_samples *samples, size_t count,
-                  const srp_vec3 *normals, cli_plate_fit *out) {
-    return cli_table_explain(name, samples, cli_plate_fit_solve(samples, normals, count, out),
-                             count);
+                  const srp_vec3 *normals, const cli_fit_watch *watch, cli_plate_fit *out) {
+    return cli_table_explain(name, samples,
+                             cli_plate_fit_solve(samples, normals, count, watch, out), count);
 }

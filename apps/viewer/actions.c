@@ -331,7 +331,14 @@ static void compare_a(viewer *v, GVariant *parameter) {
 /* The number of plates. */
 static void fit(viewer *v, GVariant *parameter) {
     int plates = g_variant_get_int32(parameter);
-    v->plates_to_fit = CLAMP(plates, 1, CLI_NORMALS_MAX);
+    if (plates < 1 || plates > CLI_NORMALS_MAX) {
+        char said[100];
+        snprintf(said, sizeof said, "%d plates: expected a whole number from 1 to %d", plates,
+                 CLI_NORMALS_MAX);
+        viewer_complain(v, said);
+        return;
+    }
+    v->plates_to_fit = plates;
     viewer_tell(v, CHANGED_SETUP);
     viewer_fit_request(v, (unsigned)v->plates_to_fit);
 }
@@ -465,7 +472,7 @@ static const viewer_action ACTIONS[] = {
     {"turn-together", NULL, NULL, "Turn the four surfaces together or apart.", toggle_together},
     {"compare-a", "i", NULL, "The table that is compared with.", compare_a},
     {"compare-b", "i", NULL, "The table that is compared.", compare_b},
-    {"fit", "i", NULL, "Fit so many plates to table A; what they give becomes B.", fit},
+    {"fit", "i", NULL, "Fit so many plates (1 to 64) to table A; what they give becomes B.", fit},
 #ifdef SRP_CLI_HAS_ORBIT
     {"mission", "s", NULL, "Open a mission file.", open_mission},
     {"choose-mission", NULL, NULL, "Ask for a mission file.", choose_mission},

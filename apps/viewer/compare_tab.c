@@ -8,14 +8,17 @@
 #include "ui.h"
 #include "viewer.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { COLUMNS = 6 };
+enum { COLUMNS = 6, PROGRESS_MS = 200 };
 
 typedef struct pane {
     viewer *v;
-    GtkWidget *box, *choice[2], *number[CLI_DIFFERENCE_COUNT][COLUMNS], *facts, *plates, *fit;
+    GtkWidget *box, *choice[2], *number[CLI_DIFFERENCE_COUNT][COLUMNS], *facts, *plates;
+    GtkWidget *fit, *cancel, *progress;
+    guint timer; /* while plates are fitted */
     viewer_charts *charts;
     viewer_table *shown[2]; /* or about to be; NULL: none */
     bool quiet;
@@ -201,11 +204,45 @@ static void on_map(GtkWidget *box, gpointer user) {
     refresh(user);
 }
 
+/* ---- progress of the fit ---- */
+
+static void show_progress(pane *p) {
+    char text[64] = "Cancelling …";
+    if (!viewer_fit_is_cancelling(p->v)) {
+        snprintf(text, sizeof text, "Fitting … %.0f s", floor(viewer_fit_seconds(p->v)));
+    }
+    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), text);
+}
+
+static gboolean on_tick(gpointer user) {
+    pane *p = user;
+    if (p->v->window == NULL || !viewer_fit_is_running(p->v)) {
+        p->timer = 0;
+        return G_SOURCE_REMOVE;
+    }
+    show_progress(p);
+    gtk_progress_bar_pulse(GTK_PROGRESS_BAR(p->progress)); /* nobody knows how long it takes */
+    return G_SOURCE_CONTINUE;
+}
+
+static void show_busy(pane *p) {
+    bool busy = viewer_fit_is_running(p->v);
+    gtk_widget_set_sensitive(p->fit, p->v->compared[0] >= 0 && !busy);
+    gtk_widget_set_sensitive(p->cancel, busy && !viewer_fit_is_cancelling(p->v));
+    gtk_widget_set_visible(p->progress, busy);
+    if (busy) {
+        show_progress(p);
+    }
+    if (busy && p->timer == 0) {
+        p->timer = g_timeout_add(PROGRESS_MS, on_tick, p);
+    }
+}
+
 static void on_changed(void *user, unsigned what) {
     pane *p = user;
     if ((what & (CHANGED_BUSY | CHANGED_TABLES)) != 0) {
         choose_by_default(p);
-        gtk_widget_set_sensitive(p->fit, p->v->compared[0] >= 0 && !viewer_fit_is_running(p->v));
+        show_busy(p);
     }
     if ((what & (CHANGED_TABLES | CHANGED_ENGINE)) != 0) {
         show_lists(p);
@@ -220,6 +257,9 @@ static void on_changed(void *user, unsigned what) {
 
 static void free_pane(gpointer user) {
     pane *p = user;
+    if (p->timer != 0) {
+        g_source_remove(p->timer);
+    }
     set_shown(p, NULL, NULL);
     g_free(p);
 }
@@ -314,6 +354,11 @@ static GtkWidget *make_strip(pane *p) {
                    ui_button("Sav_e…", "choose-save",
                              "Save the figure (.png, .svg, .pdf) or fitted plates (.plates)"));
     gtk_box_append(GTK_BOX(box), make_fit(p));
+    p->cancel = ui_button("Cance_l", "cancel", "Stop (Ctrl+.)");
+    gtk_widget_set_name(p->cancel, "cancel-fit");
+    gtk_box_append(GTK_BOX(box), p->cancel);
+    p->progress = ui_progress("fit-progress", "Progress of the fit");
+    gtk_box_append(GTK_BOX(box), p->progress);
     gtk_widget_add_css_class(box, "strip");
     gtk_widget_add_css_class(box, "pane");
     return box;

@@ -14,6 +14,7 @@ typedef struct keeper {
     srp_plate *plates;
     size_t count;
     char *about;
+    double began; /* the one that runs */
 } keeper;
 
 typedef struct fit_job {
@@ -43,10 +44,14 @@ static keeper *keeper_of(viewer *v) {
     return k;
 }
 
-static bool report(void *user, const srp_table *table, size_t done, size_t total) {
+static bool goes_on(void *user) {
     fit_job *job = user;
-    (void)table, (void)done, (void)total;
     return !atomic_load(&job->job.cancel);
+}
+
+static bool report(void *user, const srp_table *table, size_t done, size_t total) {
+    (void)table, (void)done, (void)total;
+    return goes_on(user);
 }
 
 /* Plates without area are no plates; those that are left come first. */
@@ -91,6 +96,7 @@ static void fit_run(viewer_job *base) {
     cli_samples samples;
     srp_vec3 normals[CLI_NORMALS_MAX];
     srp_error error;
+    const cli_fit_watch watch = {goes_on, job};
     double began = viewer_seconds();
     if (!cli_samples_take(job->from->table, srp_table_grid(job->from->table), false, &samples)) {
         viewer_words_add(&job->problem, "no memory for the fit");
@@ -98,13 +104,13 @@ static void fit_run(viewer_job *base) {
     }
     viewer_words_listen(&job->problem);
     int status =
-        cli_table_search(job->from->table, job->from->name, &samples, job->plates, normals);
-    if (status == CLI_DONE && !atomic_load(&job->job.cancel)) {
-        status = cli_table_fit(job->from->name, &samples, job->plates, normals, &job->fit);
+        cli_table_search(job->from->table, job->from->name, &samples, job->plates, &watch, normals);
+    if (status == CLI_DONE) {
+        status = cli_table_fit(job->from->name, &samples, job->plates, normals, &watch, &job->fit);
     }
     viewer_words_listen(NULL);
     cli_samples_free(&samples);
-    if (status != CLI_DONE || job->fit.plates == NULL) {
+    if (status != CLI_DONE) {
         return;
     }
     job->fit.count = wanted_plates(&job->fit);
@@ -181,6 +187,7 @@ void viewer_fit_request(viewer *v, unsigned plates) {
     job->v = v;
     job->from = viewer_table_reference(v->session->tables[v->compared[0]]);
     job->plates = plates;
+    keeper_of(v)->began = viewer_seconds();
     viewer_worker_cancel(v->requests.batch, SLOT_FIT);
     viewer_worker_submit(v->requests.batch, SLOT_FIT, &job->job);
     viewer_tell(v, CHANGED_BUSY);
@@ -188,10 +195,19 @@ void viewer_fit_request(viewer *v, unsigned plates) {
 
 void viewer_fit_cancel(viewer *v) {
     viewer_worker_cancel(v->requests.batch, SLOT_FIT);
+    viewer_tell(v, CHANGED_BUSY);
 }
 
 bool viewer_fit_is_running(const viewer *v) {
     return viewer_worker_is_busy(v->requests.batch, SLOT_FIT);
+}
+
+bool viewer_fit_is_cancelling(const viewer *v) {
+    return viewer_worker_is_cancelling(v->requests.batch, SLOT_FIT);
+}
+
+double viewer_fit_seconds(viewer *v) {
+    return viewer_seconds() - keeper_of(v)->began;
 }
 
 bool viewer_fit_save(viewer *v, const char *path, viewer_words *problem) {

@@ -205,7 +205,8 @@ static gboolean activate(script *s, const char *name, const char *rest) {
         if (type != NULL && strcmp(type, "s") == 0) {
             parameter = g_variant_new_string(rest);
         } else if (type != NULL && strcmp(type, "i") == 0) {
-            parameter = g_variant_new_int32((gint32)strtol(rest, NULL, 10));
+            long number = strtol(rest, NULL, 10);
+            parameter = g_variant_new_int32((gint32)CLAMP(number, G_MININT32, G_MAXINT32));
         } else if (type != NULL) {
             parameter = g_variant_new_double(g_ascii_strtod(rest, NULL));
         }

@@ -9,6 +9,7 @@
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
+#include <limits.h>
 #include <string.h>
 
 /* A box: six plates, no number twice. */
@@ -92,7 +93,7 @@ static void check_recovery(const srp_plate *plates, size_t count, double step_de
     for (size_t p = 0; p < count; ++p) {
         normals[p] = srp_vec3_scale(1.7 + (double)p, normals[p]); /* any length */
     }
-    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, count, &fit), CLI_FIT_DONE);
+    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, count, NULL, &fit), CLI_FIT_DONE);
     double far = distance(fit.plates, plates, count);
     printf("%zu plates from their own table, %g degrees: areas and optics to %.1e\n", count,
            step_deg, far);
@@ -132,7 +133,7 @@ START_TEST(a_plate_that_is_not_there_has_no_area) {
     srp_vec3 normals[6];
     cli_plate_fit fit;
     normals_of(BOX, 6, normals);
-    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 6, &fit), CLI_FIT_DONE);
+    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 6, NULL, &fit), CLI_FIT_DONE);
     ck_assert(distance(fit.plates, BOX, 5) < 1e-8);
     ck_assert(fit.plates[5].area < 1e-12);
     ck_assert(cli_plate_fit_sigma(&fit, 5, CLI_FIT_RHO_S) < 1e3); /* finite, whatever it is */
@@ -168,7 +169,7 @@ static void check_noise(const srp_plate *plates, size_t count, double step_deg) 
             d.z = normal_deviate(&state);
             samples.value[k] = srp_vec3_add_scaled(clean[k], sigma, d);
         }
-        ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, count, &fit), CLI_FIT_DONE);
+        ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, count, NULL, &fit), CLI_FIT_DONE);
         noise += fit.noise / RUNS;
         for (size_t p = 0; p < count; ++p) {
             for (int u = 0; u < CLI_FIT_UNKNOWNS; ++u) {
@@ -213,9 +214,10 @@ START_TEST(normals_are_found) {
         size_t count = which == 0 ? 6 : 8;
         cli_samples coarse = table_of(plates, count, 20.0), fine = table_of(plates, count, 10.0);
         srp_vec3 normals[8];
-        ck_assert_int_eq(cli_plate_normals_search(&coarse, &fine, count, normals), CLI_FIT_DONE);
+        ck_assert_int_eq(cli_plate_normals_search(&coarse, &fine, count, NULL, normals),
+                         CLI_FIT_DONE);
         cli_plate_fit fit;
-        ck_assert_int_eq(cli_plate_fit_solve(&fine, normals, count, &fit), CLI_FIT_DONE);
+        ck_assert_int_eq(cli_plate_fit_solve(&fine, normals, count, NULL, &fit), CLI_FIT_DONE);
         double farthest = 0.0;
         for (size_t p = 0; p < count; ++p) {
             size_t at = 0;
@@ -250,13 +252,14 @@ START_TEST(rounding_chooses_no_normals) {
     for (size_t count = 1; count <= 5; ++count) {
         cli_samples samples = table_of(box, 6, 10.0);
         srp_vec3 normals[5], again[5];
-        ck_assert_int_eq(cli_plate_normals_search(&samples, &samples, count, normals),
+        ck_assert_int_eq(cli_plate_normals_search(&samples, &samples, count, NULL, normals),
                          CLI_FIT_DONE);
         for (size_t k = 0; k < samples.count; ++k) {
             double share = 1.0 + 1e-14 * (double)((int)(k * k % 7) - 3);
             samples.value[k] = srp_vec3_scale(share, samples.value[k]);
         }
-        ck_assert_int_eq(cli_plate_normals_search(&samples, &samples, count, again), CLI_FIT_DONE);
+        ck_assert_int_eq(cli_plate_normals_search(&samples, &samples, count, NULL, again),
+                         CLI_FIT_DONE);
         double farthest = 0.0;
         for (size_t p = 0; p < count; ++p) {
             farthest = fmax(farthest, srp_vec3_norm(srp_vec3_sub(normals[p], again[p])));
@@ -274,8 +277,8 @@ START_TEST(a_search_fits_as_a_fit_does) {
     srp_vec3 normals[8];
     cli_plate_fit whole, only;
     normals_of(canted, 8, normals);
-    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 8, &whole), CLI_FIT_DONE);
-    ck_assert_int_eq(cli_plate_fit_solve_only(&samples, normals, 8, &only), CLI_FIT_DONE);
+    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 8, NULL, &whole), CLI_FIT_DONE);
+    ck_assert_int_eq(cli_plate_fit_solve_only(&samples, normals, 8, NULL, &only), CLI_FIT_DONE);
     ck_assert(distance(only.plates, whole.plates, 8) == 0.0);
     ck_assert(only.noise == 0.0 && cli_plate_fit_sigma(&only, 3, CLI_FIT_AREA) == 0.0);
     ck_assert(cli_plate_fit_sigma(&whole, 3, CLI_FIT_AREA) > 0.0);
@@ -285,23 +288,65 @@ START_TEST(a_search_fits_as_a_fit_does) {
 }
 END_TEST
 
+typedef struct patience {
+    long asked, enough; /* times */
+} patience;
+
+static bool be_patient(void *user) {
+    patience *p = user;
+    return ++p->asked <= p->enough;
+}
+
+/* Cancelled at any time, it ends before it is asked a few times more, and nothing is written. */
+START_TEST(a_fit_ends_when_its_watch_wants) {
+    make_models();
+    cli_samples coarse = table_of(canted, 8, 20.0), fine = table_of(canted, 8, 10.0);
+    srp_vec3 normals[8], watched[8];
+    patience p = {0, LONG_MAX};
+    const cli_fit_watch watch = {be_patient, &p};
+    cli_plate_fit fit = {.count = 77};
+    ck_assert_int_eq(cli_plate_normals_search(&coarse, &fine, 8, NULL, normals), CLI_FIT_DONE);
+    ck_assert_int_eq(cli_plate_normals_search(&coarse, &fine, 8, &watch, watched), CLI_FIT_DONE);
+    ck_assert_mem_eq(watched, normals, sizeof normals);
+    const long all = p.asked;
+    ck_assert_int_gt(all, 10000);
+    memset(watched, 0, sizeof watched);
+    for (long part = 0; part < 20; ++part) {
+        p = (patience){0, part * (all - 1) / 19};
+        ck_assert_int_eq(cli_plate_normals_search(&coarse, &fine, 8, &watch, watched),
+                         CLI_FIT_CANCELLED);
+        ck_assert_int_le(p.asked, p.enough + 5);
+        ck_assert(srp_vec3_norm(watched[0]) == 0.0);
+    }
+    for (long enough = 0; enough < (long)fine.count; ++enough) {
+        p = (patience){0, enough};
+        ck_assert_int_eq(cli_plate_fit_solve(&fine, normals, 8, &watch, &fit), CLI_FIT_CANCELLED);
+        ck_assert_int_eq(p.asked, enough + 1);
+        ck_assert_uint_eq(fit.count, 77);
+    }
+    cli_samples_free(&coarse);
+    cli_samples_free(&fine);
+}
+END_TEST
+
 START_TEST(bad_problems_are_refused) {
     cli_samples samples = table_of(BOX, 6, 90.0); /* 6 directions, 18 numbers */
     srp_vec3 normals[6];
     cli_plate_fit fit;
     normals_of(BOX, 6, normals);
-    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 6, &fit), CLI_FIT_TOO_FEW);
-    ck_assert_int_eq(cli_plate_normals_search(&samples, &samples, 4, normals), CLI_FIT_TOO_FEW);
+    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 6, NULL, &fit), CLI_FIT_TOO_FEW);
+    ck_assert_int_eq(cli_plate_normals_search(&samples, &samples, 4, NULL, normals),
+                     CLI_FIT_TOO_FEW);
     cli_samples_free(&samples);
 
     samples = table_of(BOX, 6, 30.0);
     normals[5] = normals[0]; /* the same plate twice */
-    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 6, &fit), CLI_FIT_AMBIGUOUS);
+    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 6, NULL, &fit), CLI_FIT_AMBIGUOUS);
     normals[5] = srp_vec3_make(1.0, 1e-12, 0.0); /* and almost */
-    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 6, &fit), CLI_FIT_AMBIGUOUS);
+    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 6, NULL, &fit), CLI_FIT_AMBIGUOUS);
     normals[5] = BOX[5].normal;
     samples.value[7].y = NAN;
-    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 6, &fit), CLI_FIT_NOT_FINITE);
+    ck_assert_int_eq(cli_plate_fit_solve(&samples, normals, 6, NULL, &fit), CLI_FIT_NOT_FINITE);
     cli_samples_free(&samples);
 }
 END_TEST
@@ -348,6 +393,7 @@ int main(void) {
     tcase_add_test(tc, normals_are_found);
     tcase_add_test(tc, rounding_chooses_no_normals);
     tcase_add_test(tc, a_search_fits_as_a_fit_does);
+    tcase_add_test(tc, a_fit_ends_when_its_watch_wants);
     tcase_add_test(tc, bad_problems_are_refused);
     tcase_add_test(tc, non_negative_least_squares_is_optimal);
     suite_add_tcase(suite, tc);

@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What takes long can be stopped, and holds up nobody who closes the window.
+. "$(dirname "$0")/lib.sh"
+start_display
+
+# in_seconds LIMIT STATUS ARGUMENTS...: view, which must take less.
+in_seconds() {
+    local limit=$1 began=$SECONDS
+    shift
+    view "$@"
+    [ $((SECONDS - began)) -lt "$limit" ] || fail "took $((SECONDS - began)) s, expected less than $limit"
+}
+
+# 64 plates to 16,000 directions take minutes: cancelled early, later and again, then closed meanwhile.
+"$SRP" table "$ROOT/models/box-wing.obj" --step 2 -o "$scratch/fine.nc" > "$scratch/table.log" 2>&1 ||
+    fail "srp table: $(cat "$scratch/table.log")"
+cat > "$scratch/steps" << END
+wait
+tab compare
+open-table $scratch/fine.nc
+wait
+fit 0
+expect message 0 plates: expected a whole number from 1 to 64
+fit -1
+expect message -1 plates: expected a whole number from 1 to 64
+fit 65
+expect message 65 plates: expected a whole number from 1 to 64
+fit 4294967297
+expect message plates: expected a whole number from 1 to 64
+expect plates-count 8
+fit 64
+expect plates-count 64
+expect fit-progress Fitting …
+pause 1.2
+print fit-progress
+cancel
+expect fit-progress Cancelling …
+wait
+expect message The fit was cancelled.
+fit 64
+pause 4
+cancel
+fit 1
+wait
+expect message 1 plates fitted
+fit 64
+pause 0.5
+END
+in_seconds 60 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+value fit-progress | grep -q '^Fitting … [1-9][0-9]* s$' || fail "progress is '$(value fit-progress)'"
+
+# One direction, which cannot be interrupted, takes seconds: it is said that its end is waited for.
+cat > "$scratch/steps" << END
+method raytrace
+parameter grid=768
+parameter diffuse=8
+wait
+tab graphics
+compute-table
+pause 1
+cancel
+expect progress Cancelling …
+wait
+expect message The table was cancelled.
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/dish.obj"
+
+# Or a minute: the program ends without it, all is remembered, and its status is as ever.
+cat > "$scratch/steps" << END
+method raytrace
+wait
+parameter diffuse=8
+parameter grid=4096
+note closed
+pause 1
+END
+in_seconds 20 0 --remember --actions "$scratch/steps" "$ROOT/models/dish.obj"
+grep -q '^closed$' "$scratch/out" || fail 'what was printed is lost'
+grep -rq 'grid=4096\|grid.*4096' "$XDG_CONFIG_HOME/srpcore" || fail 'the state was not saved'
+echo 'no-such-step' >> "$scratch/steps"
+in_seconds 20 1 --actions "$scratch/steps" "$ROOT/models/dish.obj"
+judge
