@@ -14,12 +14,14 @@ void viewer_requests_begin(viewer *v) {
     v->requests.live = viewer_worker_create("live", g_main_context_default());
     v->requests.batch = viewer_worker_create("batch", g_main_context_default());
     v->requests.tables = viewer_worker_create("tables", g_main_context_default());
+    v->requests.shadows = viewer_worker_create("shadows", g_main_context_default());
 }
 
 static const double END_SECONDS = 1.0; /* to wait for what runs */
 
 bool viewer_requests_end(viewer *v) {
-    viewer_worker *const workers[] = {v->requests.live, v->requests.batch, v->requests.tables};
+    viewer_worker *const workers[] = {v->requests.live, v->requests.batch, v->requests.tables,
+                                      v->requests.shadows};
     const double until = viewer_seconds() + END_SECONDS;
     for (size_t k = 0; k < G_N_ELEMENTS(workers); ++k) {
         viewer_worker_end(workers[k]);
@@ -32,7 +34,7 @@ bool viewer_requests_end(viewer *v) {
     for (size_t k = 0; k < G_N_ELEMENTS(workers); ++k) {
         viewer_worker_destroy(workers[k]);
     }
-    v->requests.live = v->requests.batch = v->requests.tables = NULL;
+    v->requests.live = v->requests.batch = v->requests.tables = v->requests.shadows = NULL;
     return true;
 }
 

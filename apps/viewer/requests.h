@@ -38,7 +38,8 @@ enum { SLOT_COMPARISON, SLOT_REOPTIC };                /* of `tables` */
 
 typedef struct viewer_requests {
     viewer_worker *live, *batch;
-    viewer_worker *tables; /* what is done to tables that are there, and takes seconds at most */
+    viewer_worker *tables;  /* what is done to tables that are there, and takes seconds at most */
+    viewer_worker *shadows; /* the picture's */
     viewer_progress table;
     viewer_probe probe;
 } viewer_requests;

@@ -496,7 +496,7 @@ static void free_area(gpointer user) {
 GtkWidget *viewer_scene_area(viewer *v) {
     area *a = g_new0(area, 1);
     a->v = v;
-    a->light = scene_light_create(on_light, a);
+    a->light = scene_light_create(v->requests.shadows, on_light, a);
     a->gl = gtk_gl_area_new();
     gtk_gl_area_set_required_version(GTK_GL_AREA(a->gl), 3, 3);
     gtk_gl_area_set_auto_render(GTK_GL_AREA(a->gl), FALSE);

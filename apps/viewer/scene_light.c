@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene_light.h"
 
-#include "worker.h"
-
 /* Whose light. */
 typedef struct subject {
     viewer_engine *engine; /* NULL: nobody's */
@@ -68,16 +66,16 @@ static void release(viewer_job *base) {
     g_free(job);
 }
 
-scene_light *scene_light_create(void (*ready)(void *user), void *user) {
+scene_light *scene_light_create(viewer_worker *worker, void (*ready)(void *user), void *user) {
     scene_light *light = g_new0(scene_light, 1);
-    light->worker = viewer_worker_create("shadows", g_main_context_default());
+    light->worker = worker;
     light->ready = ready;
     light->user = user;
     return light;
 }
 
 void scene_light_destroy(scene_light *light) {
-    viewer_worker_destroy(light->worker);
+    viewer_worker_end(light->worker); /* from now on it delivers nothing */
     srp_render_light_destroy(light->found);
     viewer_engine_release(light->asked.engine);
     viewer_engine_release(light->done.engine);

@@ -4,14 +4,16 @@
 #define SRP_VIEWER_SCENE_LIGHT_H
 
 #include "engine.h"
+#include "worker.h"
 
 #include <srp/render.h>
 
 typedef struct scene_light scene_light;
 
 /* `ready` is called, on the window's thread, when what was last asked for is there, or cannot be.
- */
-scene_light *scene_light_create(void (*ready)(void *user), void *user);
+ * The worker does nothing else. */
+scene_light *scene_light_create(viewer_worker *worker, void (*ready)(void *user), void *user);
+/* Ends the work, and does not wait for that: the worker is destroyed by whoever made it. */
 void scene_light_destroy(scene_light *light);
 
 /* The engine has a mesh. What is there already, or on its way, is not asked for again. */

@@ -168,8 +168,10 @@ START_TEST(an_end_need_not_be_waited_for) {
     atomic_store(&go, true);
     ck_assert(viewer_worker_wait(worker, 60.0));
     ck_assert(viewer_worker_wait(worker, 0.0));
+    g_main_context_iteration(context, FALSE);
     viewer_worker_destroy(worker);
     ck_assert_int_eq(atomic_load(&c.ran), 1);
+    ck_assert_int_eq(c.delivered, 0);
     ck_assert_int_eq(c.released, 2);
     g_main_context_unref(context);
 }
