@@ -10,6 +10,7 @@
 #include "screenshot.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- spacecraft ---- */
@@ -361,6 +362,20 @@ static void toggle_together(viewer *v, GVariant *parameter) {
     viewer_tell(v, CHANGED_VIEW);
 }
 
+/* "N AZ,EL" */
+static void set_chart_view(viewer *v, GVariant *parameter) {
+    const char *text = g_variant_get_string(parameter, NULL);
+    char *rest;
+    double at[2];
+    long number = strtol(text, &rest, 10);
+    if (number < 1 || number > VIEWER_CHARTS || *rest != ' ' ||
+        !cli_read_numbers(rest + 1, 2, at)) {
+        viewer_complain(v, "expected N AZ,EL: a surface from 1 to 4, and degrees");
+        return;
+    }
+    viewer_set_chart_view(v, (int)number - 1, at[0], at[1]);
+}
+
 #ifdef SRP_CLI_HAS_ORBIT
 /* ---- orbits ---- */
 
@@ -460,6 +475,8 @@ static const viewer_action ACTIONS[] = {
      save},
     {"choose-save", NULL, "<Control>s", "Ask where to save.", choose_save},
     {"turn-together", NULL, NULL, "Turn the four surfaces together or apart.", toggle_together},
+    {"chart-view", "s", NULL, "N AZ,EL of the eye of surface 1 to 4, or of all that turn together.",
+     set_chart_view},
     {"compare-a", "i", NULL, "The table that is compared with.", compare_a},
     {"compare-b", "i", NULL, "The table that is compared.", compare_b},
     {"fit", "i", NULL, "Fit so many plates to table A; what they give becomes B.", fit},

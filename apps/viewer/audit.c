@@ -10,7 +10,8 @@ typedef struct audit {
 static bool is_control(GtkWidget *widget) {
     return GTK_IS_BUTTON(widget) || GTK_IS_MENU_BUTTON(widget) || GTK_IS_ENTRY(widget) ||
            GTK_IS_SPIN_BUTTON(widget) || GTK_IS_DROP_DOWN(widget) || GTK_IS_RANGE(widget) ||
-           GTK_IS_CHECK_BUTTON(widget) || GTK_IS_GL_AREA(widget) || GTK_IS_PROGRESS_BAR(widget);
+           GTK_IS_CHECK_BUTTON(widget) || GTK_IS_GL_AREA(widget) || GTK_IS_PROGRESS_BAR(widget) ||
+           gtk_widget_has_css_class(widget, "turns");
 }
 
 /* Made by GTK inside another control, a popover menu, or the frame of the window. */

@@ -9,7 +9,10 @@
  *     resize WIDTH HEIGHT      of the window
  *     print WIDGET             the widget's text, "WIDGET: text", on standard output
  *     expect WIDGET TEXT       ends the program with status 1 unless the widget's text has TEXT
+ *     place WIDGET             where it is in the window's picture, "place of WIDGET: X Y W H"
  *     enter WIDGET TEXT        writes into an entry and leaves it
+ *     press WIDGET KEY         gives it the focus and a key, "Left"
+ *     point WIDGET X,Y         moves the pointer to this pixel of it
  *     screenshot FILE          as the action, after a wait
  *     note TEXT                on standard output
  *     # ...                    nothing

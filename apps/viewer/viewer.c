@@ -65,6 +65,17 @@ void viewer_set_camera(viewer *v, double az_deg, double el_deg, double zoom) {
     viewer_tell(v, CHANGED_VIEW);
 }
 
+void viewer_set_chart_view(viewer *v, int chart, double az_deg, double el_deg) {
+    double az = fmod(az_deg, 360.0);
+    for (int k = 0; k < VIEWER_CHARTS; ++k) {
+        if (k == chart || v->charts_together) {
+            v->chart_view[k][0] = az < 0.0 ? az + 360.0 : az;
+            v->chart_view[k][1] = fmax(0.0, fmin(90.0, el_deg));
+        }
+    }
+    viewer_tell(v, CHANGED_VIEW);
+}
+
 void viewer_act(viewer *v, const char *action, GVariant *parameter) {
     g_action_group_activate_action(G_ACTION_GROUP(v->window), action, parameter);
 }

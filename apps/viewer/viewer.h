@@ -40,6 +40,8 @@ typedef struct viewer_camera {
 enum { TAB_SPACECRAFT, TAB_GRAPHICS, TAB_COMPARE, TAB_ORBIT, TAB_COUNT };
 extern const char *const VIEWER_TAB_NAME[TAB_COUNT]; /* as actions know them */
 
+enum { VIEWER_CHARTS = 4 }; /* x, y, z and length of what is drawn over all directions */
+
 typedef struct viewer viewer;
 typedef void (*viewer_listener)(void *pane, unsigned what);
 
@@ -53,9 +55,10 @@ struct viewer {
     viewer_camera camera;
     srp_render_colouring colouring; /* not SRP_RENDER_VALUES */
     bool shadows;
-    int table_shown;         /* index of the table on the graphics tab, -1: none */
-    int compared[2];         /* -1: none */
-    double chart_view[4][2]; /* azimuth and elevation of the eye of each surface [deg] */
+    int table_shown; /* index of the table on the graphics tab, -1: none */
+    int compared[2]; /* -1: none */
+    double chart_view[VIEWER_CHARTS]
+                     [2]; /* azimuth and elevation of the eye of each surface [deg] */
     bool charts_together;
     double az_step_deg, el_step_deg;
     /* What there is to say. */
@@ -87,6 +90,9 @@ void viewer_complain_of_model(viewer *v, const char *text);
 
 /* Moves the eye; elevation and zoom are kept within their ranges. */
 void viewer_set_camera(viewer *v, double az_deg, double el_deg, double zoom);
+
+/* Turns a surface, or all of them while they turn together; the elevation is kept from 0 to 90. */
+void viewer_set_chart_view(viewer *v, int chart, double az_deg, double el_deg);
 
 /* Activates an action, "turn-x", as a widget does; `parameter` may be NULL. */
 void viewer_act(viewer *v, const char *action, GVariant *parameter);
