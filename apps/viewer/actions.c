@@ -5,6 +5,7 @@
 #include "fit.h"
 #include "methods.h"
 #include "numbers.h"
+#include "opening.h"
 #include "orbit.h"
 #include "reoptic.h"
 #include "screenshot.h"
@@ -292,6 +293,7 @@ static void cancel(viewer *v, GVariant *parameter) {
     (void)parameter;
     viewer_cancel_table(v);
     viewer_fit_cancel(v);
+    viewer_opening_cancel(v);
 #ifdef SRP_CLI_HAS_ORBIT
     viewer_orbit_cancel(v);
 #endif
@@ -319,6 +321,7 @@ static void reoptic(viewer *v, GVariant *parameter) {
 
 static void clear_tables(viewer *v, GVariant *parameter) {
     (void)parameter;
+    viewer_opening_cancel(v);
     v->table_shown = v->compared[0] = v->compared[1] = -1;
     viewer_session_clear_tables(v->session);
     viewer_tell(v, CHANGED_TABLES);
@@ -339,7 +342,7 @@ static void compare_b(viewer *v, GVariant *parameter) {
 }
 
 static void open_table(viewer *v, GVariant *parameter) {
-    viewer_exchange_open_table(v, g_variant_get_string(parameter, NULL));
+    viewer_opening_add(v, g_variant_get_string(parameter, NULL));
 }
 
 static void choose_table_file(viewer *v, GVariant *parameter) {

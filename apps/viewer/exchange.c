@@ -9,7 +9,6 @@
 #include "orbit.h"
 #include "outputs.h"
 #include "state.h"
-#include "table_input.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,29 +75,6 @@ void viewer_exchange_open_mtl(viewer *v, const char *path) {
         viewer_tell(v, CHANGED_SETUP);
         viewer_request_engine(v, false);
     }
-}
-
-void viewer_exchange_open_table(viewer *v, const char *path) {
-    viewer_words problem = {""};
-    srp_table *table = NULL;
-    viewer_words_listen(&problem);
-    int status = cli_table_open_checked(path, &table);
-    viewer_words_listen(NULL);
-    if (status != CLI_DONE) {
-        viewer_complain(v, problem.text);
-        return;
-    }
-    char summary[256], name[400];
-    cli_table_summary(table, summary, sizeof summary);
-    char *base = g_path_get_basename(path);
-    snprintf(name, sizeof name, "%zu: %.100s (%s)", v->session->table_count + 1, base, summary);
-    g_free(base);
-    viewer_table entry = {table, viewer_text_copy(name), NULL, viewer_text_copy(path), 0};
-    if (viewer_session_add_table(v->session, entry)) {
-        v->table_shown = (int)v->session->table_count - 1;
-    }
-    viewer_complain(v, "");
-    viewer_tell(v, CHANGED_TABLES);
 }
 
 /* ---- out ---- */

@@ -11,8 +11,6 @@ void viewer_exchange_open(viewer *v, const char *path);
 void viewer_exchange_open_mtl(viewer *v, const char *path);
 /* Asks for the MTL file that a newly opened spacecraft names and lacks; once, and no script. */
 void viewer_exchange_miss_mtl(viewer *v);
-/* Reads a table and puts it into the list. */
-void viewer_exchange_open_table(viewer *v, const char *path);
 /* Saves what the tab shows: the ending chooses between a table (.nc, .spo, .txt) and its figure
  * (.png, .svg, .pdf). */
 void viewer_exchange_save(viewer *v, const char *path);

@@ -14,12 +14,14 @@ void viewer_requests_begin(viewer *v) {
     v->requests.live = viewer_worker_create("live", g_main_context_default());
     v->requests.batch = viewer_worker_create("batch", g_main_context_default());
     v->requests.tables = viewer_worker_create("tables", g_main_context_default());
+    g_queue_init(&v->requests.to_open);
 }
 
 void viewer_requests_end(viewer *v) {
     viewer_worker_destroy(v->requests.live);
     viewer_worker_destroy(v->requests.batch);
     viewer_worker_destroy(v->requests.tables);
+    g_queue_clear_full(&v->requests.to_open, free);
     v->requests.live = v->requests.batch = v->requests.tables = NULL;
 }
 

@@ -4,6 +4,7 @@
 #ifndef SRP_VIEWER_REQUESTS_H
 #define SRP_VIEWER_REQUESTS_H
 
+#include "words.h"
 #include "worker.h"
 
 #include <stdatomic.h>
@@ -34,13 +35,15 @@ typedef struct viewer_progress {
 
 enum { SLOT_ENGINE, SLOT_FORCE };                      /* of `live` */
 enum { SLOT_TABLE, SLOT_ORBIT, SLOT_FIT, SLOT_PROBE }; /* of `batch` */
-enum { SLOT_COMPARISON, SLOT_REOPTIC };                /* of `tables` */
+enum { SLOT_COMPARISON, SLOT_REOPTIC, SLOT_OPENING };  /* of `tables` */
 
 typedef struct viewer_requests {
     viewer_worker *live, *batch;
-    viewer_worker *tables; /* what is done to tables that are there, and takes seconds at most */
+    viewer_worker *tables; /* what is done with tables, and takes seconds at most */
     viewer_progress table;
     viewer_probe probe;
+    GQueue to_open;          /* paths of tables, each freed by free() */
+    viewer_words not_opened; /* of those that were asked for together: what went wrong */
 } viewer_requests;
 
 void viewer_requests_begin(viewer *v);

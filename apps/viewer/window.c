@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The window: header, spacecraft, method, tabs, and a line for what there is to say. */
 #include "actions.h"
+#include "opening.h"
 #include "state.h"
 #include "style.h"
 #include "ui.h"
@@ -137,7 +138,9 @@ static void on_changed(void *pane, unsigned what) {
                     viewer_worker_is_busy(f->v->requests.batch, SLOT_TABLE) ||
                     viewer_worker_is_busy(f->v->requests.batch, SLOT_FIT) ||
                     viewer_worker_is_busy(f->v->requests.batch, SLOT_ORBIT);
-        gtk_label_set_text(GTK_LABEL(f->busy), busy ? "Computing …" : "");
+        gtk_label_set_text(GTK_LABEL(f->busy), busy                              ? "Computing …"
+                                               : viewer_opening_is_running(f->v) ? "Opening …"
+                                                                                 : "");
     }
 }
 
@@ -159,8 +162,7 @@ static gboolean on_drop(GtkDropTarget *target, const GValue *value, double x, do
     if (path == NULL) {
         return FALSE;
     }
-    bool table = g_str_has_suffix(path, ".nc") || g_str_has_suffix(path, ".spo");
-    viewer_act_text(f->v, table ? "open-table" : "open", path);
+    viewer_act_text(f->v, srp_table_format_of(path) != NULL ? "open-table" : "open", path);
     g_free(path);
     return TRUE;
 }

@@ -83,6 +83,7 @@ wait
 expect table raycast
 screenshot $SHOTS/6-second.png
 open-table $scratch/exact.txt
+wait
 expect table exact.txt
 
 tab compare

@@ -64,6 +64,7 @@ expect message Mass -3: expected
 method exact
 wait
 open-table $scratch/no-such.nc
+wait
 expect message no-such.nc
 save $scratch/nothing.nc
 expect message There is no table yet

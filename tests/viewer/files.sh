@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Files that come in while the window goes on.
+. "$(dirname "$0")/lib.sh"
+start_display
+
+"$SRP" table "$ROOT/models/cube.obj" --step 30 --mass 12.5 -o "$scratch/small.nc" -o "$scratch/small.txt" > "$scratch/log" 2>&1 ||
+    fail 'srp table'
+
+# Runs the steps; when they note that the window hears, the pipe gets its table.
+view_and_feed() {
+    : > "$scratch/out"
+    (
+        until grep -q '^hears' "$scratch/out"; do sleep 0.05; done
+        cat "$scratch/small.txt" > "$scratch/slow.txt"
+    ) &
+    local writer=$!
+    view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+    kill "$writer" 2> /dev/null
+}
+
+# Tables are read in the order that they were asked for, and the first takes as long as it likes: it comes
+# through a pipe when the window has shown that it hears.
+mkfifo "$scratch/slow.txt"
+cat > "$scratch/steps" << END
+wait
+tab graphics
+open-table $scratch/slow.txt
+open-table $scratch/small.nc
+open-table $scratch/no-such.nc
+open-table $scratch/nor-this.nc
+expect busy Opening …
+turn-z 33
+pause 0.3
+expect turn-z 33
+expect f-x e+
+note hears
+wait
+expect table 2: small.nc
+expect message no-such.nc
+expect message nor-this.nc
+print busy
+show-table 1
+expect table 1: slow.txt
+open-table $scratch/small.txt
+wait
+expect table 3: small.txt
+print message
+END
+view_and_feed
+[ -z "$(value busy)" ] || fail "busy when all is there: $(value busy)"
+[ -z "$(value message)" ] || fail "a message that another try has taken back: $(value message)"
+
+# Those that are not wanted any more do not come.
+cat > "$scratch/steps" << END
+wait
+open-table $scratch/slow.txt
+open-table $scratch/small.nc
+pause 0.2
+clear-tables
+note hears
+wait
+print table
+open-table $scratch/small.nc
+wait
+expect table 1: small.nc
+END
+view_and_feed
+[ -z "$(value table)" ] || fail "there is a table that was forgotten: $(value table)"
+
+# The window is closed while it reads.
+"$SRP" table --method cannonball --cr 1.25 --area 2.5 --step 0.5 --mass 12.5 -o "$scratch/large.txt" > "$scratch/log" 2>&1 ||
+    fail 'srp table'
+printf '%s\n' wait "open-table $scratch/large.txt" "open-table $scratch/large.txt" > "$scratch/steps"
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+judge
