@@ -7,10 +7,11 @@
 
 /* What came of the last run. */
 typedef struct viewer_orbit {
-    char *path[2];  /* mission, and the one it is compared with; NULL: none */
-    char *model[2]; /* of the radiation pressure, of the last run; NULL: not run */
-    size_t count;   /* rows */
-    double *t;      /* (count) [s] */
+    char *path[2]; /* mission, and the one it is compared with; NULL: none */
+    char *name[2]; /* of the missions of the last run, with their models of sunlight: "geo.yaml
+                      (exact)"; NULL: not run */
+    size_t count;  /* rows */
+    double *t;     /* (count) [s] */
     double
         *value[4]; /* (count each) [m] radial, along, cross, distance of the second from the first;
                       of one mission alone: its position, and its distance from the centre */

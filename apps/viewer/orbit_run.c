@@ -20,8 +20,8 @@ static void free_result(viewer_orbit *orbit) {
         orbit->value[k] = NULL;
     }
     for (int k = 0; k < 2; ++k) {
-        free(orbit->model[k]);
-        orbit->model[k] = NULL;
+        free(orbit->name[k]);
+        orbit->name[k] = NULL;
     }
     orbit->t = NULL;
     orbit->count = 0;
@@ -91,6 +91,15 @@ static bool on_progress(void *user, double done) {
     return !atomic_load(&job->job.cancel);
 }
 
+static char *name_of(const char *path, const char *model) {
+    char *base = g_path_get_basename(path), *valid = g_utf8_make_valid(base, -1);
+    char *name = g_strdup_printf("%s (%s)", valid, model), *copy = viewer_text_copy(name);
+    g_free(name);
+    g_free(valid);
+    g_free(base);
+    return copy;
+}
+
 static bool run_one(orbit_job *job, const srp_mission *mission, cli_track *track,
                     srp_mission_summary *summary) {
     const srp_mission_watch watch = {.row = on_row, .progress = on_progress, .user = job};
@@ -101,7 +110,7 @@ static bool run_one(orbit_job *job, const srp_mission *mission, cli_track *track
     if (status != SRP_OK && !job->cancelled) {
         viewer_words_add_error(&job->problem, &error);
     }
-    job->made.model[job->part] = viewer_text_copy(srp_mission_get_info(mission)->model);
+    job->made.name[job->part] = name_of(job->path[job->part], srp_mission_get_info(mission)->model);
     ++job->part;
     return status == SRP_OK;
 }

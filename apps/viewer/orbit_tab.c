@@ -157,19 +157,21 @@ static void show_files(pane *p, const viewer_orbit *orbit) {
 }
 
 static void show_result(pane *p, const viewer_orbit *orbit) {
-    char text[512] = "A mission file describes an orbit (docs: Missions). A second one, of another "
-                     "model of sunlight, is compared with it.";
-    char last[200] = "";
+    char *text = NULL, last[200] = "";
     if (orbit->count > 0) {
         size_t end = orbit->count - 1;
-        snprintf(text, sizeof text, "%s%s%s: %s", orbit->model[0],
-                 orbit->is_difference ? " → " : "", orbit->is_difference ? orbit->model[1] : "",
-                 orbit->summary);
+        text = g_strdup_printf("%s%s%s: %s", orbit->name[0], orbit->is_difference ? " → " : "",
+                               orbit->is_difference ? orbit->name[1] : "", orbit->summary);
         snprintf(last, sizeof last, "at the end: %.9g, %.9g, %.9g m; distance %.9g m",
                  orbit->value[0][end], orbit->value[1][end], orbit->value[2][end],
                  orbit->value[3][end]);
     }
-    gtk_label_set_text(GTK_LABEL(p->facts), text);
+    gtk_label_set_text(GTK_LABEL(p->facts),
+                       text != NULL
+                           ? text
+                           : "A mission file describes an orbit (docs: Missions). A second one, of "
+                             "another model of sunlight, is compared with it.");
+    g_free(text);
     gtk_label_set_text(GTK_LABEL(p->last), last);
     gtk_widget_queue_draw(p->plot);
 }

@@ -158,10 +158,10 @@ static void show_latency(pane *p) {
     gtk_label_set_text(GTK_LABEL(p->latency), text);
 }
 
-/* Two columns of a vector's components, with a heading each. */
-static int add_vectors(pane *p, GtkGrid *grid, int at, const char *const *heads, int first,
-                       int count) {
-    static const char *const rows[4] = {"x", "y", "z", "| |"};
+/* Columns of vectors' components, with a heading each; `length` names the last row. */
+static int add_vectors(pane *p, GtkGrid *grid, int at, const char *const *heads, const char *length,
+                       int first, int count) {
+    const char *const rows[4] = {"x", "y", "z", length};
     for (int c = 0; c < count; ++c) {
         GtkWidget *head = ui_label(heads[c], "heading small");
         gtk_label_set_xalign(GTK_LABEL(head), 1.0f);
@@ -188,14 +188,14 @@ static GtkWidget *make_numbers(pane *p) {
     GtkWidget *widget = gtk_grid_new();
     GtkGrid *grid = GTK_GRID(widget);
     gtk_grid_set_column_spacing(grid, 10);
-    int at = add_vectors(p, grid, 0, areas, F_AREA, 2);
+    int at = add_vectors(p, grid, 0, areas, "|f|, |t|", F_AREA, 2);
     p->error[0] = ui_value("f-error");
     p->error[1] = ui_value("t-error");
     gtk_grid_attach(grid, ui_label("±", "dim"), 0, at, 1, 1);
     gtk_grid_attach(grid, p->error[0], 1, at, 1, 1);
     gtk_grid_attach(grid, p->error[1], 2, at++, 1, 1);
-    at = add_vectors(p, grid, at, forces, F_FORCE, 2);
-    at = add_vectors(p, grid, at, accelerations, F_ACCELERATION, 1);
+    at = add_vectors(p, grid, at, forces, "|F|, |T|", F_FORCE, 2);
+    at = add_vectors(p, grid, at, accelerations, "|a|", F_ACCELERATION, 1);
     GtkWidget *head = ui_label("Lit area [m²]", "heading small");
     gtk_label_set_xalign(GTK_LABEL(head), 1.0f);
     gtk_widget_set_margin_top(head, 10);

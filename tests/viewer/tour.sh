@@ -172,7 +172,7 @@ versus $ROOT/models/missions/geo-cannonball.yaml
 propagate
 wait
 expect message The mission ran
-expect orbit-facts exact → cannonball
+expect orbit-facts geo-box-wing.yaml (exact) → geo-cannonball.yaml (cannonball): 
 save $scratch/viewer.csv
 screenshot $SHOTS/10-orbit.png
 mission $scratch/no-such.yaml
