@@ -8,6 +8,7 @@
 #include "opening.h"
 #include "orbit.h"
 #include "reoptic.h"
+#include "saving.h"
 #include "screenshot.h"
 
 #include <math.h>
@@ -351,7 +352,7 @@ static void choose_table_file(viewer *v, GVariant *parameter) {
 }
 
 static void save(viewer *v, GVariant *parameter) {
-    viewer_exchange_save(v, g_variant_get_string(parameter, NULL));
+    viewer_save(v, g_variant_get_string(parameter, NULL));
 }
 
 static void choose_save(viewer *v, GVariant *parameter) {
@@ -474,7 +475,9 @@ static const viewer_action ACTIONS[] = {
     {"open-table", "s", NULL, "Open a table from disk.", open_table},
     {"choose-table", NULL, "<Control><Shift>o", "Ask for a table.", choose_table_file},
     {"save", "s", NULL,
-     "Save the table shown (.nc, .spo, .txt), its figure (.png, .svg, .pdf), or the comparison's.",
+     "Save what the tab shows: picture (.png), table (.nc, .spo, .txt) or figure (.png, .svg, "
+     ".pdf), "
+     "comparison (.txt) or fitted plates (.plates), orbit (.csv).",
      save},
     {"choose-save", NULL, "<Control>s", "Ask where to save.", choose_save},
     {"turn-together", NULL, NULL, "Turn the four surfaces together or apart.", toggle_together},

@@ -5,6 +5,7 @@
 #include "comparison_view.h"
 #include "facing.h"
 #include "fit.h"
+#include "text_file.h"
 #include "ui.h"
 #include "viewer.h"
 
@@ -18,13 +19,22 @@ typedef struct pane {
     GtkWidget *box, *choice[2], *number[CLI_DIFFERENCE_COUNT][COLUMNS], *facts, *plates, *fit;
     viewer_charts *charts;
     viewer_table *shown[2]; /* or about to be; NULL: none */
+    bool known;             /* they have been compared: */
+    cli_comparison found;   /* released */
+    char *name[2];          /* theirs in it */
     bool quiet;
 } pane;
 
 static const char *const FIELD_NAME[CHARTS] = {"Δf#dx#u [m²]", "Δf#dy#u [m²]", "Δf#dz#u [m²]",
                                                "|Δf| [m²]"};
 
-static const char NOTHING_YET[] = "Two tables of this session, or from disk, are compared here.";
+/* While there are not two tables. */
+static const char *nothing_yet(const viewer *v) {
+    return v->session->table_count == 1
+               ? "Compute or open a second table: then the two are compared here."
+               : "Two tables of this session, or from disk, are compared here: compute or open "
+                 "them.";
+}
 
 /* ---- numbers ---- */
 
@@ -49,36 +59,57 @@ typedef struct comparison_job {
     viewer *v;
     pane *p; /* there as long as the window */
     viewer_table *table[2];
+    char *name[2]; /* for messages and for what is saved */
     bool good;
-    cli_difference difference;
-    char facts[200];
-    srp_grid grid;
+    cli_comparison found;
     double *value; /* (CHARTS, nodes) */
     viewer_words problem;
 } comparison_job;
 
 static void comparison_run(viewer_job *base) {
     comparison_job *job = (comparison_job *)base;
-    cli_comparison c = {.table = {job->table[0]->table, job->table[1]->table},
-                        .name = {job->table[0]->name, job->table[1]->name},
-                        .scheme = srp_interp_find("bicubic")};
+    cli_comparison *c = &job->found;
+    *c = (cli_comparison){.table = {job->table[0]->table, job->table[1]->table},
+                          .name = {job->name[0], job->name[1]},
+                          .scheme = srp_interp_find("bicubic")};
     viewer_words_listen(&job->problem);
-    job->good = cli_comparison_make(&c) == CLI_DONE;
+    job->good = cli_comparison_make(c) == CLI_DONE;
     viewer_words_listen(NULL);
     if (job->good) {
-        job->difference = c.difference;
-        job->grid = c.grid;
-        snprintf(job->facts, sizeof job->facts,
-                 "%zu directions, %g° × %g°, each by its solid angle; mean |f| of A %.6g m², of B "
-                 "%.6g m²",
-                 c.directions, 360.0 / (c.grid.az_count - 1), 180.0 / (c.grid.el_count - 1),
-                 c.difference.mean_a, c.difference.mean_b);
-        job->value = calloc(CHARTS * srp_grid_node_count(c.grid), sizeof *job->value);
+        job->value = calloc(CHARTS * srp_grid_node_count(c->grid), sizeof *job->value);
     }
     if (job->value != NULL && !atomic_load(&job->job.cancel)) {
-        cli_comparison_fields(&c, job->value);
+        cli_comparison_fields(c, job->value);
     }
-    cli_comparison_release(&c);
+    cli_comparison_release(c);
+}
+
+static void show_facts(pane *p) {
+    const cli_comparison *c = &p->found;
+    char facts[200];
+    snprintf(facts, sizeof facts,
+             "%zu directions, %g° × %g°, each by its solid angle; mean |f| of A %.6g m², of B "
+             "%.6g m²",
+             c->directions, 360.0 / (c->grid.az_count - 1), 180.0 / (c->grid.el_count - 1),
+             c->difference.mean_a, c->difference.mean_b);
+    gtk_label_set_text(GTK_LABEL(p->facts), facts);
+}
+
+static void forget(pane *p) {
+    p->known = false;
+    for (int k = 0; k < 2; ++k) {
+        g_clear_pointer(&p->name[k], g_free);
+    }
+}
+
+/* Takes over what was found, for those who save it. */
+static void keep(pane *p, comparison_job *job) {
+    forget(p);
+    p->known = true;
+    p->found = job->found;
+    for (int k = 0; k < 2; ++k) {
+        p->name[k] = g_steal_pointer(&job->name[k]);
+    }
 }
 
 static void comparison_deliver(viewer_job *base) {
@@ -89,17 +120,18 @@ static void comparison_deliver(viewer_job *base) {
         return; /* others have been chosen */
     }
     if (!job->good) {
-        gtk_label_set_text(GTK_LABEL(p->facts), NOTHING_YET);
+        gtk_label_set_text(GTK_LABEL(p->facts), "These two cannot be compared.");
         viewer_complain(v, job->problem.text);
         return;
     }
+    keep(p, job);
     for (int k = 0; k < CLI_DIFFERENCE_COUNT; ++k) {
-        show_row(p, k, &job->difference.row[k]);
+        show_row(p, k, &p->found.difference.row[k]);
     }
-    gtk_label_set_text(GTK_LABEL(p->facts), job->facts);
+    show_facts(p);
     if (job->value != NULL) {
         char *title = g_strdup_printf("%s minus %s", job->table[1]->name, job->table[0]->name);
-        viewer_charts_show(p->charts, title, job->grid, job->value, FIELD_NAME);
+        viewer_charts_show(p->charts, title, p->found.grid, job->value, FIELD_NAME);
         job->value = NULL;
         g_free(title);
     }
@@ -107,8 +139,10 @@ static void comparison_deliver(viewer_job *base) {
 
 static void comparison_release(viewer_job *base) {
     comparison_job *job = (comparison_job *)base;
-    viewer_table_release(job->table[0]);
-    viewer_table_release(job->table[1]);
+    for (int k = 0; k < 2; ++k) {
+        viewer_table_release(job->table[k]);
+        g_free(job->name[k]);
+    }
     free(job->value);
     free(job);
 }
@@ -121,6 +155,9 @@ static void request_comparison(pane *p) {
     job->p = p;
     for (int k = 0; k < 2; ++k) {
         job->table[k] = viewer_table_reference(p->shown[k]);
+        job->name[k] = p->shown[k]->path != NULL
+                           ? g_strdup(p->shown[k]->path)
+                           : g_strdup_printf("Table %d", p->v->compared[k] + 1);
     }
     viewer_worker_cancel(p->v->requests.tables, SLOT_COMPARISON);
     viewer_worker_submit(p->v->requests.tables, SLOT_COMPARISON, &job->job);
@@ -138,6 +175,7 @@ static void set_shown(pane *p, viewer_table *a, viewer_table *b) {
 
 /* Numbers of no tables, while there are none or others are compared. */
 static void show_nothing(pane *p, const char *facts) {
+    forget(p);
     for (int k = 0; k < CLI_DIFFERENCE_COUNT; ++k) {
         for (int c = 0; c < COLUMNS; ++c) {
             gtk_label_set_text(GTK_LABEL(p->number[k][c]), "—");
@@ -188,7 +226,7 @@ static void refresh(pane *p) {
     }
     if (now[0] == NULL || now[1] == NULL) {
         set_shown(p, NULL, NULL);
-        show_nothing(p, NOTHING_YET);
+        show_nothing(p, nothing_yet(p->v));
     } else if (gtk_widget_get_mapped(p->box) && (now[0] != p->shown[0] || now[1] != p->shown[1])) {
         set_shown(p, now[0], now[1]);
         show_nothing(p, "Comparing …");
@@ -218,6 +256,7 @@ static void on_changed(void *user, unsigned what) {
 static void free_pane(gpointer user) {
     pane *p = user;
     set_shown(p, NULL, NULL);
+    forget(p);
     g_free(p);
 }
 
@@ -268,9 +307,11 @@ static GtkWidget *make_strip(pane *p) {
         gtk_box_append(GTK_BOX(box), p->choice[k]);
     }
     gtk_box_append(GTK_BOX(box), ui_button("O_pen…", "choose-table", "Open a table from disk"));
-    gtk_box_append(GTK_BOX(box),
-                   ui_button("Sav_e…", "choose-save",
-                             "Save the figure (.png, .svg, .pdf) or fitted plates (.plates)"));
+    gtk_box_append(
+        GTK_BOX(box),
+        ui_button("Sav_e…", "choose-save",
+                  "Save the comparison (.txt), its figure (.png, .svg, .pdf) or fitted plates "
+                  "(.plates)"));
     p->plates = gtk_spin_button_new_with_range(1.0, CLI_NORMALS_MAX, 1.0);
     gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), 8.0);
     gtk_editable_set_width_chars(GTK_EDITABLE(p->plates), 2);
@@ -297,11 +338,11 @@ GtkWidget *viewer_compare_tab(viewer *v) {
     p->v = v;
     GtkWidget *box = p->box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
     p->charts = viewer_charts_create(v, "difference", 4);
-    p->facts = ui_label(NOTHING_YET, "dim small");
+    p->facts = ui_label(nothing_yet(v), "dim small");
     gtk_widget_set_name(p->facts, "comparison-facts");
     gtk_widget_set_margin_start(p->facts, 12);
     gtk_widget_set_margin_top(p->facts, 4);
-    g_object_set_data(G_OBJECT(v->window), "comparison-charts", p->charts);
+    g_object_set_data(G_OBJECT(v->window), "comparison", p);
     gtk_box_append(GTK_BOX(box), ui_strip(make_strip(p)));
     gtk_box_append(GTK_BOX(box), p->facts);
     gtk_box_append(GTK_BOX(box), make_numbers(p));
@@ -312,11 +353,37 @@ GtkWidget *viewer_compare_tab(viewer *v) {
     return box;
 }
 
-bool viewer_comparison_save(viewer *v, const char *path, viewer_words *problem) {
+/* The pane whose comparison can be saved; NULL, said: there is none. */
+static pane *pane_to_save(viewer *v, viewer_words *problem) {
+    pane *p = g_object_get_data(G_OBJECT(v->window), "comparison");
     if (viewer_worker_is_busy(v->requests.tables, SLOT_COMPARISON)) {
         viewer_words_add(problem, "The tables are still being compared.");
+    } else if (!p->known) {
+        viewer_words_add(problem, "Nothing has been compared yet.");
+    } else {
+        return p;
+    }
+    return NULL;
+}
+
+bool viewer_comparison_save_figure(viewer *v, const char *path, viewer_words *problem) {
+    pane *p = pane_to_save(v, problem);
+    return p != NULL && viewer_charts_save(p->charts, path, problem);
+}
+
+bool viewer_comparison_save_text(viewer *v, const char *path, viewer_words *problem) {
+    const pane *p = pane_to_save(v, problem);
+    if (p == NULL) {
         return false;
     }
-    return viewer_charts_save(g_object_get_data(G_OBJECT(v->window), "comparison-charts"), path,
-                              problem);
+    const srp_table_info *info = srp_table_get_info(p->shown[0]->table);
+    cli_text_file file;
+    viewer_words_listen(problem);
+    int status = cli_text_file_begin(&file, path);
+    if (status == CLI_DONE) {
+        cli_comparison_print(file.out, &p->found, info->mass, info->light);
+        status = cli_text_file_end(&file);
+    }
+    viewer_words_listen(NULL);
+    return status == CLI_DONE;
 }

@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "exchange.h"
 
-#include "chart.h"
-#include "comparison_view.h"
-#include "fit.h"
 #include "messages.h"
 #include "numbers.h"
-#include "orbit.h"
-#include "outputs.h"
+#include "saving.h"
 #include "state.h"
 
 #include <stdio.h>
@@ -77,88 +73,6 @@ void viewer_exchange_open_mtl(viewer *v, const char *path) {
     }
 }
 
-/* ---- out ---- */
-
-/* With the words of the program's own writers. */
-static int write_table(const viewer_table *entry, const char *path, viewer_words *problem) {
-    const char *items[] = {path};
-    cli_list paths = {items, 1};
-    size_t written;
-    const srp_table_info *info = srp_table_get_info(entry->table);
-    cli_table_content content = {info->mass == info->mass, false};
-    viewer_words_listen(problem);
-    int status = cli_outputs_check(&paths, content, NULL, 0);
-    if (status == CLI_DONE) {
-        status = cli_outputs_write(&paths, entry->table, &written);
-    }
-    viewer_words_listen(NULL);
-    return status;
-}
-
-static void save_table(viewer *v, const char *path) {
-    viewer_words problem = {""};
-    if (v->table_shown < 0) {
-        viewer_complain(v, "There is no table yet: compute or open one.");
-        return;
-    }
-    viewer_table *entry = v->session->tables[v->table_shown];
-    if (write_table(entry, path, &problem) != CLI_DONE) {
-        viewer_complain(v, problem.text);
-        return;
-    }
-    char *copy = viewer_text_copy(path);
-    if (copy != NULL) {
-        free(entry->path);
-        entry->path = copy;
-    }
-    char *said = g_strdup_printf("Saved %s.", path);
-    viewer_say(v, said);
-    g_free(said);
-}
-
-static void save_plates(viewer *v, const char *path) {
-    viewer_words problem = {""};
-    bool good = viewer_fit_save(v, path, &problem);
-    char *said = g_strdup_printf("Saved %s.", path);
-    good ? viewer_say(v, said) : viewer_complain(v, problem.text);
-    g_free(said);
-}
-
-static void save_rows(viewer *v, const char *path) {
-#ifdef SRP_CLI_HAS_ORBIT
-    viewer_words problem = {""};
-    bool good = viewer_orbit_save(v, path, &problem);
-    char *said = g_strdup_printf("Saved %s.", path);
-    good ? viewer_say(v, said) : viewer_complain(v, problem.text);
-    g_free(said);
-#else
-    (void)path;
-    viewer_complain(v, "This build has no missions.");
-#endif
-}
-
-void viewer_exchange_save(viewer *v, const char *path) {
-    if (srp_table_format_of(path) != NULL) {
-        save_table(v, path);
-        return;
-    }
-    viewer_words problem = {""};
-    if (g_str_has_suffix(path, ".csv")) {
-        save_rows(v, path);
-        return;
-    }
-    if (g_str_has_suffix(path, ".plates")) {
-        save_plates(v, path);
-        return;
-    }
-    bool compares = gtk_notebook_get_current_page(v->tabs) == TAB_COMPARE;
-    bool good =
-        compares ? viewer_comparison_save(v, path, &problem) : viewer_chart_save(v, path, &problem);
-    char *said = g_strdup_printf("Saved %s.", path);
-    good ? viewer_say(v, said) : viewer_complain(v, problem.text);
-    g_free(said);
-}
-
 /* ---- dialogs ---- */
 
 typedef struct question {
@@ -181,9 +95,10 @@ static void on_response(GtkNativeDialog *dialog, int response, gpointer user) {
     g_object_unref(dialog);
 }
 
-/* Asks for a file whose ending is one of `patterns`, and hands it to an action. */
+/* Asks for a file whose ending is one of `patterns`, and hands it to an action. `name` is proposed;
+ * NULL: none. */
 static void ask(viewer *v, const char *title, const char *action, GtkFileChooserAction how,
-                const char *kind, const char *const *patterns) {
+                const char *kind, const char *const *patterns, const char *name) {
     GtkFileChooserNative *dialog = gtk_file_chooser_native_new(title, v->window, how, NULL, NULL);
     GtkFileFilter *filter = gtk_file_filter_new();
     gtk_file_filter_set_name(filter, kind);
@@ -192,6 +107,9 @@ static void ask(viewer *v, const char *title, const char *action, GtkFileChooser
     }
     gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(dialog), filter);
     g_object_unref(filter);
+    if (name != NULL) {
+        gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(dialog), name);
+    }
     question *asked = g_new0(question, 1);
     *asked = (question){v, action};
     gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(dialog), TRUE);
@@ -203,17 +121,19 @@ static const char *const TABLES[] = {"*.nc", "*.spo", "*.txt", NULL};
 
 void viewer_exchange_ask_open(viewer *v) {
     static const char *const patterns[] = {"*.obj", "*.OBJ", NULL};
-    ask(v, "Open a Spacecraft", "open", GTK_FILE_CHOOSER_ACTION_OPEN, "Wavefront OBJ", patterns);
+    ask(v, "Open a Spacecraft", "open", GTK_FILE_CHOOSER_ACTION_OPEN, "Wavefront OBJ", patterns,
+        NULL);
 }
 
 void viewer_exchange_ask_plates(viewer *v) {
     static const char *const patterns[] = {"*.plates", "*.txt", NULL};
-    ask(v, "Open Plates", "plates", GTK_FILE_CHOOSER_ACTION_OPEN, "Plates", patterns);
+    ask(v, "Open Plates", "plates", GTK_FILE_CHOOSER_ACTION_OPEN, "Plates", patterns, NULL);
 }
 
 void viewer_exchange_ask_mtl(viewer *v) {
     static const char *const patterns[] = {"*.mtl", "*.MTL", NULL};
-    ask(v, "Find the MTL File", "mtl", GTK_FILE_CHOOSER_ACTION_OPEN, "Wavefront MTL", patterns);
+    ask(v, "Find the MTL File", "mtl", GTK_FILE_CHOOSER_ACTION_OPEN, "Wavefront MTL", patterns,
+        NULL);
 }
 
 void viewer_exchange_miss_mtl(viewer *v) {
@@ -229,20 +149,19 @@ void viewer_exchange_miss_mtl(viewer *v) {
 }
 
 void viewer_exchange_ask_table(viewer *v) {
-    ask(v, "Open a Table", "open-table", GTK_FILE_CHOOSER_ACTION_OPEN, "Tables", TABLES);
+    ask(v, "Open a Table", "open-table", GTK_FILE_CHOOSER_ACTION_OPEN, "Tables", TABLES, NULL);
 }
 
 void viewer_exchange_ask_save(viewer *v) {
-    static const char *const patterns[] = {"*.nc",  "*.spo", "*.txt",    "*.png", "*.svg",
-                                           "*.pdf", "*.csv", "*.plates", NULL};
-    ask(v, "Save Table or Figure", "save", GTK_FILE_CHOOSER_ACTION_SAVE, "Tables and figures",
-        patterns);
+    const viewer_saving *saving = viewer_saving_now(v);
+    ask(v, saving->title, "save", GTK_FILE_CHOOSER_ACTION_SAVE, "What this tab saves",
+        saving->patterns, saving->name);
 }
 
 void viewer_exchange_ask_mission(viewer *v, int which) {
     static const char *const patterns[] = {"*.yaml", "*.yml", NULL};
     ask(v, "Open a Mission", which == 0 ? "mission" : "versus", GTK_FILE_CHOOSER_ACTION_OPEN,
-        "Missions", patterns);
+        "Missions", patterns, NULL);
 }
 
 char *viewer_exchange_force_command(const viewer *v) {

@@ -173,7 +173,7 @@ void viewer_fit_request(viewer *v, unsigned plates) {
         return;
     }
     if (v->compared[0] < 0) {
-        viewer_complain(v, "There is no table A yet: compute or open one.");
+        viewer_complain(v, VIEWER_NO_TABLE);
         return;
     }
     fit_job *job = g_new0(fit_job, 1);

@@ -496,6 +496,7 @@ GtkWidget *viewer_scene_area(viewer *v) {
     gtk_widget_set_halign(a->trouble, GTK_ALIGN_CENTER);
     gtk_widget_set_visible(a->trouble, FALSE);
     GtkWidget *overlay = gtk_overlay_new();
+    gtk_widget_set_name(overlay, "scene-picture");
     gtk_overlay_set_child(GTK_OVERLAY(overlay), a->gl);
     gtk_overlay_add_overlay(GTK_OVERLAY(overlay), a->marks);
     gtk_overlay_add_overlay(GTK_OVERLAY(overlay), a->trouble);

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char VIEWER_NO_TABLE[] = "There is no table yet: compute or open one.";
+
 char *viewer_text_copy(const char *text) {
     if (text == NULL) {
         return NULL;

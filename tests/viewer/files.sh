@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Files that come in while the window goes on.
+# Files that come in while the window goes on, and what each tab saves.
 . "$(dirname "$0")/lib.sh"
 start_display
 
@@ -73,4 +73,57 @@ view_and_feed
     fail 'srp table'
 printf '%s\n' wait "open-table $scratch/large.txt" "open-table $scratch/large.txt" > "$scratch/steps"
 view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+
+# What each tab saves, and what it says of the rest.
+cat > "$scratch/steps" << END
+wait
+dark
+save $scratch/dark.png
+expect message Saved
+dark
+save $scratch/picture.png
+expect message Saved
+save $scratch/other.nc
+expect message other.nc: Visualize Spacecraft saves the picture of the spacecraft (.png). Visualize Graphics saves the table
+az-step 30
+el-step 30
+compute-table
+wait
+tab graphics
+save $scratch/cube.nc
+expect message Saved
+save $scratch/cube.plates
+expect message Compare Graphics saves the comparison (.txt)
+tab compare
+expect comparison-facts Compute or open a second table
+open-table $scratch/small.txt
+wait
+expect comparison-facts 62 directions
+save $scratch/compared.txt
+expect message Saved
+save $scratch/compared.svg
+expect message Saved
+save $scratch/compared.nc
+expect message compared.nc: Compare Graphics saves the comparison (.txt), its figure (.png, .svg, .pdf) or fitted plates (.plates). Visualize Graphics saves the table
+save $scratch/compared.SPO
+expect message Visualize Graphics saves the table
+save $scratch/compared
+expect message compared: Compare Graphics saves the comparison (.txt)
+clear-tables
+expect comparison-facts Two tables of this session, or from disk
+save $scratch/nothing.txt
+expect message Nothing has been compared yet
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+"$SRP" compare "$scratch/cube.nc" "$scratch/small.txt" > "$scratch/cli.txt" || fail 'srp compare'
+cmp "$scratch/cli.txt" "$scratch/compared.txt" || fail 'other text than srp compare'
+grep -q '<svg' "$scratch/compared.svg" || fail 'no figure of the comparison'
+for file in other.nc cube.plates compared.nc compared.SPO compared nothing.txt; do
+    [ ! -e "$scratch/$file" ] || fail "$file was saved"
+done
+read -r width height < <(od -An -tu1 -j16 -N8 "$scratch/picture.png" | awk '{ print $3 * 256 + $4, $7 * 256 + $8 }')
+"$CHECK" "$scratch/picture.png" "$width" "$height" 0 0 "$width" "$height" 25 0.985 || fail 'no picture of the spacecraft'
+[ "$width" -lt 1000 ] || fail 'the picture is of more than the spacecraft'
+
+! cmp -s "$scratch/picture.png" "$scratch/dark.png" || fail 'the picture is the same in the dark'
 judge

@@ -182,7 +182,7 @@ wait
 open-table $scratch/half.nc
 open-table $scratch/one.nc
 wait
-expect comparison-facts Two tables of this session
+expect vector-rms —
 tab compare
 expect comparison-facts Comparing …
 expect vector-rms —
@@ -212,6 +212,7 @@ propagate
 wait
 expect message The mission ran
 print orbit-end
+tab orbit
 save $scratch/viewer.csv
 END
     view 0 --actions "$scratch/steps"

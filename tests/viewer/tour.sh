@@ -115,6 +115,9 @@ screenshot $SHOTS/9-fit.png
 clear-tables
 wait
 expect vector-rms —
+save $scratch/none.png
+expect message Nothing has been compared yet
+tab graphics
 save $scratch/none.nc
 expect message There is no table yet
 
@@ -173,8 +176,11 @@ propagate
 wait
 expect message The mission ran
 expect orbit-facts geo-box-wing.yaml (exact) → geo-cannonball.yaml (cannonball): 
+save $scratch/viewer.nc
+expect message viewer.nc: Orbit saves the rows of the orbit (.csv). Visualize Graphics saves the table
 save $scratch/viewer.csv
 screenshot $SHOTS/10-orbit.png
+expect message Saved
 mission $scratch/no-such.yaml
 propagate
 wait

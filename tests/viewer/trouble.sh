@@ -66,10 +66,12 @@ wait
 open-table $scratch/no-such.nc
 wait
 expect message no-such.nc
+tab graphics
 save $scratch/nothing.nc
 expect message There is no table yet
 save $scratch/nothing.gif
-expect message no
+expect message nothing.gif: Visualize Graphics saves the table (.nc
+tab spacecraft
 open $ROOT/models/box-wing.obj
 wait
 expect model-name box-wing.obj
