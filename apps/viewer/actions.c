@@ -505,8 +505,40 @@ const viewer_action *viewer_action_list(size_t *count) {
     return ACTIONS;
 }
 
+/* These look at things, or ask for more: what was said of the last step stands. */
+static const char *const LOOKS[] = {"turn-x",
+                                    "turn-y",
+                                    "turn-z",
+                                    "sun",
+                                    "reset-attitude",
+                                    "record",
+                                    "clear-arrows",
+                                    "colouring",
+                                    "camera",
+                                    "zoom-in",
+                                    "zoom-out",
+                                    "reset-view",
+                                    "shadows",
+                                    "dark",
+                                    "tab",
+                                    "turn-together",
+                                    "chart-view",
+                                    "screenshot",
+                                    "about",
+                                    "choose-model",
+                                    "choose-plates",
+                                    "choose-mtl",
+                                    "choose-table",
+                                    "choose-save",
+                                    "choose-mission",
+                                    "choose-versus",
+                                    NULL};
+
 static void on_activate(GSimpleAction *action, GVariant *parameter, gpointer user) {
     const viewer_action *which = g_object_get_data(G_OBJECT(action), "which");
+    if (!g_strv_contains(LOOKS, which->name)) {
+        viewer_forget_news(user);
+    }
     which->run(user, parameter);
 }
 

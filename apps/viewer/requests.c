@@ -366,9 +366,9 @@ void viewer_request_table(viewer *v) {
     srp_grid grid;
     srp_error error;
     if (engine == NULL || engine->prepared == NULL) {
-        viewer_complain(v, engine != NULL && engine->problem.text[0] != '\0'
-                               ? engine->problem.text
-                               : "There is no spacecraft yet: open one.");
+        viewer_complain_of_model(v, engine != NULL && engine->problem.text[0] != '\0'
+                                        ? engine->problem.text
+                                        : "There is no spacecraft yet: open one.");
         return;
     }
     if (srp_grid_from_steps(v->az_step_deg, v->el_step_deg, &grid, &error) != SRP_OK) {

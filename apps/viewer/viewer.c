@@ -37,6 +37,12 @@ void viewer_say(viewer *v, const char *text) {
     set_message(v, text, false);
 }
 
+void viewer_forget_news(viewer *v) {
+    if (!v->message_is_problem) {
+        viewer_say(v, "");
+    }
+}
+
 void viewer_complain(viewer *v, const char *text) {
     char words[VIEWER_WORDS_SIZE];
     viewer_words_for_window(text, words, sizeof words);

@@ -79,8 +79,10 @@ void viewer_listen(viewer *v, viewer_listener changed, void *pane);
 /* Something changed: every pane hears of it, now. */
 void viewer_tell(viewer *v, unsigned what);
 
-/* A line for the user, until the next one; "" says nothing. */
+/* A line for the user, until the next one or the next step; "" says nothing. */
 void viewer_say(viewer *v, const char *text);
+/* The user takes another step: what was said stands no more, but for what went wrong. */
+void viewer_forget_news(viewer *v);
 /* The same for what went wrong; "" takes back the last complaint, and nothing else. Options of the
  * command line are named as the window names them. */
 void viewer_complain(viewer *v, const char *text);

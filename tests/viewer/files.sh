@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Files that come in while the window goes on, and what each tab saves.
+# Files that come in while the window goes on, and what each tab saves; what is said goes when it is old.
 . "$(dirname "$0")/lib.sh"
 start_display
 
@@ -126,4 +126,53 @@ read -r width height < <(od -An -tu1 -j16 -N8 "$scratch/picture.png" | awk '{ pr
 [ "$width" -lt 1000 ] || fail 'the picture is of more than the spacecraft'
 
 ! cmp -s "$scratch/picture.png" "$scratch/dark.png" || fail 'the picture is the same in the dark'
+
+# What was said of a step goes with the next one; what is wrong stands until it is mended.
+printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/mended.obj"
+cp "$ROOT/models/dish.mtl" "$scratch/"
+cat > "$scratch/steps" << END
+wait
+az-step 30
+el-step 30
+tab graphics
+compute-table
+wait
+expect message computed in
+open-table $scratch/small.nc
+wait
+print message
+save $scratch/cube.txt
+turn-x 3
+tab compare
+expect message Saved
+compare-b 1
+print message
+compare-b 9
+expect message there is no table of this number
+compare-b 2
+turn-x 5
+expect message there is no table of this number
+open $scratch/mended.obj
+wait
+expect message mended.obj:2:
+compute-table
+expect message mended.obj:2:
+tab spacecraft
+expect message mended.obj:2:
+note broken
+pause 2
+reload
+wait
+print message
+END
+: > "$scratch/out"
+(
+    until grep -q '^broken' "$scratch/out"; do sleep 0.05; done
+    cp "$ROOT/models/dish.obj" "$scratch/mended.obj"
+) &
+writer=$!
+view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+kill "$writer" 2> /dev/null
+said=$(values message | tr -d '\n')
+[ -z "$said" ] || fail "old words: $said"
 judge

@@ -182,11 +182,13 @@ save $scratch/viewer.csv
 screenshot $SHOTS/10-orbit.png
 expect message Saved
 mission $scratch/no-such.yaml
+print message
 propagate
 wait
 expect message no-such.yaml
 END
     view 0 --actions "$scratch/steps"
+    [ -z "$(value message)" ] || fail "old words: $(value message)"
     seen 10-orbit.png 10 330 1260 440 20 0.99
     cmp "$scratch/cli.csv" "$scratch/viewer.csv" || fail 'other rows than srp propagate'
 fi

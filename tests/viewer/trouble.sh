@@ -139,8 +139,7 @@ pause 0.05
 open $scratch/broken.obj
 open $ROOT/models/dish.obj
 screenshot $scratch/waited.png
-expect table cube.obj
-expect message Table 1: cube.obj
+expect table 1: cube.obj
 expect model-name dish.obj
 expect speed-words directions/s
 compute-table
