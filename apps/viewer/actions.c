@@ -475,9 +475,8 @@ static const viewer_action ACTIONS[] = {
     {"open-table", "s", NULL, "Open a table from disk.", open_table},
     {"choose-table", NULL, "<Control><Shift>o", "Ask for a table.", choose_table_file},
     {"save", "s", NULL,
-     "Save what the tab shows: picture (.png), table (.nc, .spo, .txt) or figure (.png, .svg, "
-     ".pdf), "
-     "comparison (.txt) or fitted plates (.plates), orbit (.csv).",
+     "Save what the tab shows: a picture (.png), table (.nc, .spo, .txt) or figure (.png, .svg, "
+     ".pdf), comparison (.txt), fitted plates (.plates) or orbit (.csv).",
      save},
     {"choose-save", NULL, "<Control>s", "Ask where to save.", choose_save},
     {"turn-together", NULL, NULL, "Turn the four surfaces together or apart.", toggle_together},
