@@ -8,7 +8,6 @@
 #include "numbers.h"
 #include "orbit.h"
 #include "outputs.h"
-#include "state.h"
 #include "table_input.h"
 
 #include <stdio.h>
@@ -26,7 +25,6 @@ void viewer_exchange_open(viewer *v, const char *path) {
         viewer_setup_clear_materials(setup);
     }
     if (viewer_setup_set_model(setup, full)) {
-        viewer_state_note_recent(v, full);
         viewer_complain(v, "");
         viewer_tell(v, CHANGED_SETUP);
         viewer_request_engine(v, !other);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The window: header, spacecraft, method, tabs, and a line for what there is to say. */
 #include "actions.h"
+#include "recent.h"
 #include "state.h"
 #include "style.h"
 #include "ui.h"
@@ -49,7 +50,7 @@ static GtkWidget *make_header(frame *f) {
                               ui_button("_Open…", "choose-model", "Open an OBJ file (Ctrl+O)"));
     gtk_header_bar_pack_start(
         GTK_HEADER_BAR(header),
-        menu_button("_Recent", viewer_state_recent_menu(f->v), "Files that were open before"));
+        menu_button("_Recent", viewer_recent_menu(f->v), "Files that were open before"));
     GtkWidget *button = menu_button("Menu", menu, "Save, copy, style (F10)");
     gtk_menu_button_set_primary(GTK_MENU_BUTTON(button), TRUE);
     gtk_header_bar_pack_end(GTK_HEADER_BAR(header), button);

@@ -211,6 +211,10 @@ printf '%s\n' 'wait' 'expect method raycast' 'expect grid 77' 'expect mass 12.5'
 view 0 --remember --actions "$scratch/steps"
 grep -q '^files=.*models/cube.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the file is not among the recent ones'
 grep -q '^tab=1' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the tab is not remembered'
+printf 'v 1 2 x\n' > "$scratch/broken.obj"
+printf '%s\n' wait "open $scratch/broken.obj" wait 'expect message broken.obj:1' > "$scratch/steps"
+view 0 --remember --actions "$scratch/steps"
+! grep -q 'broken.obj' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'what cannot be opened is remembered'
 # Two windows at once: what either opened is remembered.
 printf '%s\n' wait 'pause 4' > "$scratch/slow"
 run_viewer --remember --actions "$scratch/slow" "$ROOT/models/dish.obj" > "$scratch/log" 2>&1 &
