@@ -14,7 +14,7 @@ export HOME=$steps GTK_A11Y=none NO_AT_BRIDGE=1
 # picture NAME MODEL: the steps come on standard input.
 picture() {
     cat > "$steps/$1"
-    echo "screenshot $folder/viewer-$1.png" >> "$steps/$1"
+    printf 'wait\nscreenshot %s\n' "$folder/viewer-$1.png" >> "$steps/$1"
     xvfb-run -a -s '-screen 0 2048x1280x24' "$viewer" --size "$size" --actions "$steps/$1" "$top/models/$2" 2> "$steps/log" ||
         { cat "$steps/log" >&2; exit 1; }
     echo "$folder/viewer-$1.png"

@@ -5,6 +5,7 @@
 #include "info_table.h"
 #include "json.h"
 #include "messages.h"
+#include "outputs.h"
 
 #include <srp/plates.h>
 #include <srp/table.h>
@@ -221,7 +222,7 @@ static int show(const info_options *options, const cli_model_options *model,
     if (operands->count == 0) {
         return cli_usage_error("nothing given: MODEL.obj, --plates FILE or a table");
     }
-    if (srp_table_format_of(operands->items[0]) != NULL) {
+    if (cli_input_format_of(operands->items[0]) != NULL) {
         if (operands->count > 1 || model->given != 0) {
             return cli_usage_error("%s is a table and stands alone, without options of a model",
                                    operands->items[0]);

@@ -95,12 +95,11 @@ static char *name_model(const table_job *job) {
 }
 
 static int name_things(table_job *job) {
-    static const char ending[] = ".partial";
     const char *first = job->options->outputs.items[0];
     size_t line_size = strlen(job->command_line) + 1;
     job->title = name_model(job);
     job->stored_command_line = malloc(line_size);
-    size_t size = strlen(first) + sizeof ending;
+    size_t size = strlen(first) + sizeof CLI_PARTIAL_ENDING;
     job->partial = malloc(size);
     if (job->title == NULL || job->stored_command_line == NULL || job->partial == NULL) {
         cli_say("no memory");
@@ -110,7 +109,7 @@ static int name_things(table_job *job) {
     memcpy(job->stored_command_line, job->command_line, line_size);
     cli_utf8_mend(job->stored_command_line);
     cli_utf8_mend(job->title);
-    snprintf(job->partial, size, "%s%s", first, ending);
+    snprintf(job->partial, size, "%s" CLI_PARTIAL_ENDING, first);
     return CLI_DONE;
 }
 

@@ -4,6 +4,7 @@
 #include "interp_check.h"
 #include "json.h"
 #include "messages.h"
+#include "outputs.h"
 #include "samples.h"
 
 #include <srp/const.h>
@@ -300,7 +301,7 @@ static void write_json(const summary *s) {
 int cli_info_table(const char *path, bool json) {
     srp_table *table = NULL;
     srp_error error;
-    summary s = {.path = path, .format = srp_table_format_of(path)};
+    summary s = {.path = path, .format = cli_input_format_of(path)};
     if (srp_table_read(s.format, path, &table, &error) != SRP_OK) {
         return cli_input_error(&error);
     }

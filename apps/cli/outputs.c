@@ -4,6 +4,7 @@
 #include "interp_check.h"
 #include "messages.h"
 #include "system.h"
+#include "utf8.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,6 +23,11 @@ const srp_table_format *cli_format_of(const char *path) {
         cli_usage_error("%s: unknown ending (formats of tables: %s)", path, endings);
     }
     return format;
+}
+
+const srp_table_format *cli_input_format_of(const char *path) {
+    return cli_ends_with(path, CLI_PARTIAL_ENDING) ? &srp_table_format_netcdf
+                                                   : srp_table_format_of(path);
 }
 
 static int check_output(const char *path, cli_table_content content, const char *const *inputs,

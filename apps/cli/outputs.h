@@ -11,6 +11,12 @@
  */
 const srp_table_format *cli_format_of(const char *path);
 
+/* Behind the name of the first output: what an interrupted run leaves, a table in NetCDF. */
+#define CLI_PARTIAL_ENDING ".partial"
+
+/* The format that a table to be read has by its ending; NULL: it is none. */
+const srp_table_format *cli_input_format_of(const char *path);
+
 /* What the table that will be written holds. */
 typedef struct cli_table_content {
     bool mass;  /* the mass of the spacecraft is known */

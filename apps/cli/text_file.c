@@ -62,10 +62,12 @@ int cli_text_file_begin(cli_text_file *file, const char *path) {
 }
 
 int cli_text_file_end(cli_text_file *file) {
+    int earlier = errno; /* of the write that failed, if one has */
     errno = 0;
     int failed = ferror(file->out);
     int status = CLI_DONE;
     if (fclose(file->out) != 0 || failed != 0) {
+        errno = errno != 0 ? errno : earlier;
         status = cannot_write(file->path);
         if (file->part != NULL) {
             remove(file->part);

@@ -2,6 +2,7 @@
 #include "actions.h"
 
 #include "exchange.h"
+#include "facing.h"
 #include "fit.h"
 #include "methods.h"
 #include "numbers.h"
@@ -335,7 +336,9 @@ static void compare_a(viewer *v, GVariant *parameter) {
 /* The number of plates. */
 static void fit(viewer *v, GVariant *parameter) {
     int plates = g_variant_get_int32(parameter);
-    viewer_fit_request(v, plates > 0 ? (unsigned)plates : 1);
+    v->plates_to_fit = CLAMP(plates, 1, CLI_NORMALS_MAX);
+    viewer_tell(v, CHANGED_SETUP);
+    viewer_fit_request(v, (unsigned)v->plates_to_fit);
 }
 
 static void compare_b(viewer *v, GVariant *parameter) {

@@ -94,6 +94,30 @@ static void look_at_key(audit *a, GtkWidget *widget) {
     g_hash_table_insert(a->keys, GUINT_TO_POINTER(key), (gpointer)words);
 }
 
+/* Within the window, and within what scrolls. */
+static void look_at_place(audit *a, GtkWidget *widget) {
+    for (GtkWidget *around = gtk_widget_get_parent(widget); around != NULL;
+         around = gtk_widget_get_parent(around)) {
+        graphene_rect_t place;
+        bool bounds = GTK_IS_WINDOW(around) || GTK_IS_SCROLLED_WINDOW(around);
+        if (bounds && gtk_widget_compute_bounds(widget, around, &place) &&
+            (place.origin.x < 0.0f || place.origin.y < 0.0f ||
+             place.origin.x + place.size.width > (float)gtk_widget_get_width(around) ||
+             place.origin.y + place.size.height > (float)gtk_widget_get_height(around))) {
+            complain(a, widget, "out of sight",
+                     GTK_IS_LABEL(widget) ? gtk_label_get_text(GTK_LABEL(widget)) : "");
+            return;
+        }
+    }
+}
+
+static void look_at_words(audit *a, GtkWidget *widget) {
+    if (GTK_IS_LABEL(widget) &&
+        pango_layout_is_ellipsized(gtk_label_get_layout(GTK_LABEL(widget)))) {
+        complain(a, widget, "cut", gtk_label_get_text(GTK_LABEL(widget)));
+    }
+}
+
 /* `shown`: the keys of what is below work now. */
 static void look(audit *a, GtkWidget *widget, bool shown) {
     if (is_inner(widget)) {
@@ -103,6 +127,11 @@ static void look(audit *a, GtkWidget *widget, bool shown) {
                        gtk_widget_get_visible(widget) && !GTK_IS_POPOVER(widget);
     if (child_shown) {
         look_at_key(a, widget);
+    }
+    bool words = GTK_IS_LABEL(widget) && gtk_label_get_text(GTK_LABEL(widget))[0] != '\0';
+    if (gtk_widget_get_mapped(widget) && (is_control(widget) || words)) {
+        look_at_place(a, widget);
+        look_at_words(a, widget);
     }
     if (is_control(widget)) {
         look_at_control(a, widget);
@@ -129,7 +158,8 @@ int viewer_audit(viewer *v) {
     int width, height;
     GtkWidget *window = GTK_WIDGET(v->window);
     gtk_widget_measure(window, GTK_ORIENTATION_HORIZONTAL, -1, &width, NULL, NULL, NULL);
-    gtk_widget_measure(window, GTK_ORIENTATION_VERTICAL, -1, &height, NULL, NULL, NULL);
+    gtk_widget_measure(window, GTK_ORIENTATION_VERTICAL, gtk_widget_get_allocated_width(window),
+                       &height, NULL, NULL, NULL);
     g_print("least-width: %d\nleast-height: %d\n", width, height);
     look(&a, window, true);
     g_print("controls: %d\ncomplaints: %d\n", a.controls, a.complaints);

@@ -63,7 +63,7 @@ static char *plain(const char *name) {
 static void put_title(const viewer_charts *c, int k, const viewer_page *page, cairo_t *cr) {
     char *name = plain(c->picture.name[k]);
     cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
-    cairo_set_font_size(cr, 13.0);
+    cairo_set_font_size(cr, fmin(13.0, page->width / 18.0));
     cairo_set_source_rgb(cr, page->ink[0], page->ink[1], page->ink[2]);
     cairo_move_to(cr, 12.0, 20.0);
     cairo_show_text(cr, name);
@@ -180,7 +180,7 @@ static GtkWidget *make_area(viewer_charts *c, const char *name, int k) {
     gtk_widget_set_name(area, full);
     gtk_widget_set_hexpand(area, TRUE);
     gtk_widget_set_vexpand(area, TRUE);
-    gtk_widget_set_size_request(area, 180, 150);
+    gtk_widget_set_size_request(area, 160, 100);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(area), draw, c, NULL);
     GtkEventController *motion = gtk_event_controller_motion_new();
     g_signal_connect(motion, "motion", G_CALLBACK(on_motion), c);
@@ -191,7 +191,7 @@ static GtkWidget *make_area(viewer_charts *c, const char *name, int k) {
     return area;
 }
 
-viewer_charts *viewer_charts_create(viewer *v, const char *name, int columns) {
+viewer_charts *viewer_charts_create(viewer *v, const char *name) {
     viewer_charts *c = g_new0(viewer_charts, 1);
     GtkWidget *grid = gtk_grid_new();
     gtk_grid_set_column_homogeneous(GTK_GRID(grid), TRUE);
@@ -201,7 +201,7 @@ viewer_charts *viewer_charts_create(viewer *v, const char *name, int columns) {
     c->widget = ui_box(GTK_ORIENTATION_VERTICAL, 0);
     for (int k = 0; k < CHARTS; ++k) {
         c->area[k] = make_area(c, name, k);
-        gtk_grid_attach(GTK_GRID(grid), c->area[k], k % columns, k / columns, 1, 1);
+        gtk_grid_attach(GTK_GRID(grid), c->area[k], k % 2, k / 2, 1, 1);
     }
     c->pointer = ui_label("", "value below");
     gtk_widget_set_name(c->pointer, full);

@@ -34,13 +34,15 @@ static void open_page(const viewer_page *page, cairo_t *cr) {
     plsmin(0.0, 0.7);
 }
 
-/* All of the page, or as much of its height as keeps the words along the axes upright, which then
- * need room at the sides. */
+/* All of the page, but for the title where a low page has no corner free for it; or as much of its
+ * height as keeps the words along the axes upright, which then need room at the sides. */
 static cli_panel panel_of(const viewer_page *page) {
-    const double narrowest = 1.25;
+    const double narrowest = 1.25, title = 26.0, corner = 0.08;
     double share = fmin(1.0, page->width / (narrowest * page->height));
     double side = share < 1.0 ? 0.03 : 0.0;
-    return (cli_panel){side, 1.0 - side, 0.5 - 0.5 * share, 0.5 + 0.5 * share};
+    double top = 0.5 + 0.5 * share;
+    double covered = title / page->height - (1.0 - top) - corner * share;
+    return (cli_panel){side, 1.0 - side, 0.5 - 0.5 * share, top - fmax(0.0, covered)};
 }
 
 bool viewer_page_draw(const viewer_page *page, cairo_t *cr) {

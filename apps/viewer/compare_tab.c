@@ -251,6 +251,9 @@ static void on_changed(void *user, unsigned what) {
     if ((what & CHANGED_TABLES) != 0) {
         refresh(p);
     }
+    if ((what & CHANGED_SETUP) != 0) {
+        gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), p->v->plates_to_fit);
+    }
 }
 
 static void free_pane(gpointer user) {
@@ -262,63 +265,68 @@ static void free_pane(gpointer user) {
 
 /* ---- together ---- */
 
-static GtkWidget *make_numbers(pane *p) {
-    static const char *const heads[COLUMNS] = {"MSE [m⁴]",     "RMS [m²]", "Mean [m²]",
-                                               "Largest [m²]", "az [°]",   "el [°]"};
-    static const char *const rows[CLI_DIFFERENCE_COUNT] = {"x", "y", "z", "|B| − |A|", "|B − A|"};
+static GtkWidget *small_heading(const char *text, float xalign) {
+    GtkWidget *head = ui_label(text, "heading small");
+    gtk_label_set_xalign(GTK_LABEL(head), xalign);
+    return head;
+}
+
+/* Rows `first` to `first` + `count` - 1 of the comparison as columns side by side. */
+static GtkWidget *make_block(pane *p, int first, int count) {
+    static const char *const heads[CLI_DIFFERENCE_COUNT] = {"x", "y", "z", "|B| − |A|", "|B − A|"};
+    static const char *const rows[COLUMNS] = {"MSE [m⁴]",     "RMS [m²]", "Mean [m²]",
+                                              "Largest [m²]", "az [°]",   "el [°]"};
+    static const char *const words[COLUMNS] = {"mse", "rms", "mean", "largest", "az", "el"};
     GtkWidget *grid = gtk_grid_new();
-    gtk_grid_set_column_spacing(GTK_GRID(grid), 18);
-    gtk_grid_attach(GTK_GRID(grid), ui_label("B − A", "heading small"), 0, 0, 1, 1);
+    gtk_grid_set_column_spacing(GTK_GRID(grid), 8);
+    gtk_grid_attach(GTK_GRID(grid), small_heading("B − A", 0.0f), 0, 0, 1, 1);
     for (int c = 0; c < COLUMNS; ++c) {
-        GtkWidget *head = ui_label(heads[c], "heading small");
-        gtk_label_set_xalign(GTK_LABEL(head), 1.0f);
-        gtk_grid_attach(GTK_GRID(grid), head, 1 + c, 0, 1, 1);
+        gtk_grid_attach(GTK_GRID(grid), ui_label(rows[c], "dim small"), 0, 1 + c, 1, 1);
     }
-    for (int r = 0; r < CLI_DIFFERENCE_COUNT; ++r) {
-        gtk_grid_attach(GTK_GRID(grid), ui_label(rows[r], "dim"), 0, 1 + r, 1, 1);
+    for (int k = 0; k < count; ++k) {
+        int r = first + k;
+        gtk_grid_attach(GTK_GRID(grid), small_heading(heads[r], 1.0f), 1 + k, 0, 1, 1);
         for (int c = 0; c < COLUMNS; ++c) {
-            static const char *const words[COLUMNS] = {"mse", "rms", "mean", "largest", "az", "el"};
             char name[48];
             snprintf(name, sizeof name, "%s-%s", CLI_DIFFERENCE_NAME[r], words[c]);
             p->number[r][c] = ui_value(name);
             gtk_widget_set_size_request(p->number[r][c], 96, -1);
             gtk_label_set_text(GTK_LABEL(p->number[r][c]), "—");
-            gtk_grid_attach(GTK_GRID(grid), p->number[r][c], 1 + c, 1 + r, 1, 1);
+            gtk_grid_attach(GTK_GRID(grid), p->number[r][c], 1 + k, 1 + c, 1, 1);
         }
     }
-    gtk_widget_add_css_class(grid, "strip");
     return grid;
+}
+
+static GtkWidget *make_side(pane *p) {
+    GtkWidget *side = ui_box(GTK_ORIENTATION_VERTICAL, 8);
+    p->facts = ui_paragraph("comparison-facts", "dim small", 20);
+    gtk_label_set_text(GTK_LABEL(p->facts), nothing_yet(p->v));
+    gtk_box_append(GTK_BOX(side), make_block(p, 0, 3));
+    gtk_box_append(GTK_BOX(side), make_block(p, 3, 2));
+    gtk_box_append(GTK_BOX(side), p->facts);
+    return ui_side(side);
 }
 
 static void on_fit(GtkButton *button, gpointer user) {
     pane *p = user;
     (void)button;
-    int plates = gtk_spin_button_get_value_as_int(GTK_SPIN_BUTTON(p->plates));
-    viewer_act(p->v, "fit", g_variant_new_int32((gint32)plates));
+    viewer_act(p->v, "fit", g_variant_new_int32((gint32)p->v->plates_to_fit));
 }
 
-static GtkWidget *make_strip(pane *p) {
-    static const char *const words[2] = {"_A", "_B"};
-    GtkWidget *box = ui_box(GTK_ORIENTATION_HORIZONTAL, 8);
-    for (int k = 0; k < 2; ++k) {
-        p->choice[k] = ui_choice(k == 0 ? "compare-a" : "compare-b", G_CALLBACK(on_choice), p);
-        gtk_widget_set_hexpand(p->choice[k], TRUE);
-        gtk_box_append(GTK_BOX(box), ui_mnemonic(words[k], p->choice[k]));
-        gtk_box_append(GTK_BOX(box), p->choice[k]);
-    }
-    gtk_box_append(GTK_BOX(box), ui_button("O_pen…", "choose-table", "Open a table from disk"));
-    gtk_box_append(
-        GTK_BOX(box),
-        ui_button("Sav_e…", "choose-save",
-                  "Save the comparison (.txt), its figure (.png, .svg, .pdf) or fitted plates "
-                  "(.plates)"));
+static void on_plates(GtkSpinButton *plates, gpointer user) {
+    ((pane *)user)->v->plates_to_fit = gtk_spin_button_get_value_as_int(plates);
+}
+
+/* How many, and the button that fits them. */
+static GtkWidget *make_fit(pane *p) {
     p->plates = gtk_spin_button_new_with_range(1.0, CLI_NORMALS_MAX, 1.0);
-    gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), 8.0);
+    gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), p->v->plates_to_fit);
     gtk_editable_set_width_chars(GTK_EDITABLE(p->plates), 2);
-    ui_name(p->plates, "Number of plates");
     gtk_widget_set_name(p->plates, "plates-count");
     gtk_widget_set_tooltip_text(p->plates, "How many plates");
     gtk_widget_set_valign(p->plates, GTK_ALIGN_CENTER);
+    g_signal_connect(p->plates, "value-changed", G_CALLBACK(on_plates), p);
     p->fit = gtk_button_new_with_mnemonic("_Fit Plates to A");
     gtk_widget_set_name(p->fit, "fit");
     gtk_widget_set_valign(p->fit, GTK_ALIGN_CENTER);
@@ -326,8 +334,27 @@ static GtkWidget *make_strip(pane *p) {
                                 "Find the N-plate model that comes nearest to A; it becomes B, "
                                 "and the differences are its residuals");
     g_signal_connect(p->fit, "clicked", G_CALLBACK(on_fit), p);
-    gtk_box_append(GTK_BOX(box), p->plates);
+    GtkWidget *box = ui_pair(ui_mnemonic("Plate_s", p->plates), p->plates);
     gtk_box_append(GTK_BOX(box), p->fit);
+    return box;
+}
+
+static GtkWidget *make_strip(pane *p) {
+    static const char *const words[2] = {"_A", "_B"};
+    GtkWidget *box = ui_strip(8);
+    for (int k = 0; k < 2; ++k) {
+        p->choice[k] = ui_choice(k == 0 ? "compare-a" : "compare-b", G_CALLBACK(on_choice), p);
+        gtk_widget_set_hexpand(p->choice[k], TRUE);
+        gtk_widget_set_size_request(p->choice[k], 160, -1);
+        gtk_box_append(GTK_BOX(box), ui_pair(ui_mnemonic(words[k], p->choice[k]), p->choice[k]));
+    }
+    gtk_box_append(GTK_BOX(box), ui_button("O_pen…", "choose-table", "Open a table from disk"));
+    gtk_box_append(
+        GTK_BOX(box),
+        ui_button("Sav_e…", "choose-save",
+                  "Save the comparison (.txt), its figure (.png, .svg, .pdf) or fitted plates "
+                  "(.plates)"));
+    gtk_box_append(GTK_BOX(box), make_fit(p));
     gtk_widget_add_css_class(box, "strip");
     gtk_widget_add_css_class(box, "pane");
     return box;
@@ -337,16 +364,13 @@ GtkWidget *viewer_compare_tab(viewer *v) {
     pane *p = g_new0(pane, 1);
     p->v = v;
     GtkWidget *box = p->box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
-    p->charts = viewer_charts_create(v, "difference", 4);
-    p->facts = ui_label(nothing_yet(v), "dim small");
-    gtk_widget_set_name(p->facts, "comparison-facts");
-    gtk_widget_set_margin_start(p->facts, 12);
-    gtk_widget_set_margin_top(p->facts, 4);
+    GtkWidget *below = ui_box(GTK_ORIENTATION_HORIZONTAL, 0);
+    p->charts = viewer_charts_create(v, "difference");
     g_object_set_data(G_OBJECT(v->window), "comparison", p);
-    gtk_box_append(GTK_BOX(box), ui_strip(make_strip(p)));
-    gtk_box_append(GTK_BOX(box), p->facts);
-    gtk_box_append(GTK_BOX(box), make_numbers(p));
-    gtk_box_append(GTK_BOX(box), viewer_charts_widget(p->charts));
+    gtk_box_append(GTK_BOX(below), viewer_charts_widget(p->charts));
+    gtk_box_append(GTK_BOX(below), make_side(p));
+    gtk_box_append(GTK_BOX(box), make_strip(p));
+    gtk_box_append(GTK_BOX(box), below);
     g_signal_connect_after(box, "map", G_CALLBACK(on_map), p);
     g_object_set_data_full(G_OBJECT(box), "pane", p, free_pane);
     viewer_listen(v, on_changed, p);

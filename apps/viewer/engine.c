@@ -105,23 +105,49 @@ static void ask_for_mtl(viewer_engine *engine) {
     viewer_words_add(&engine->problem, said.text);
 }
 
+enum { NAMES_MAX = 8 };
+
+/* "the material 'a' has no optics" of those of `names`, or "the materials 'a', 'b' and 4 others
+ * have". */
+static void ask_for_optics(viewer_engine *engine, const char *const *names, size_t count) {
+    char line[VIEWER_WORDS_SIZE];
+    size_t named = count > NAMES_MAX ? NAMES_MAX - 1 : count, used = 0;
+    if (count == 0) {
+        return;
+    }
+    for (size_t i = 0; i < named; ++i) {
+        used += (size_t)snprintf(line + used, sizeof line - used, "%s'%.200s'",
+                                 i == 0           ? count == 1 ? "the material " : "the materials "
+                                 : i + 1 == count ? " and "
+                                                  : ", ",
+                                 names[i]);
+    }
+    if (named < count) {
+        used += (size_t)snprintf(line + used, sizeof line - used, " and %zu others", count - named);
+    }
+    snprintf(line + used, sizeof line - used, " %s no optics: give them in Materials",
+             count == 1 ? "has" : "have");
+    viewer_words_add(&engine->problem, line);
+}
+
 static srp_status join_optics(viewer_engine *engine, srp_error *error) {
     srp_materials *materials = NULL;
     srp_status status = srp_materials_create(&materials, error);
     const cli_info *info = &engine->shape->info;
-    engine->optics_known = true;
+    const char *lacking[NAMES_MAX];
+    size_t lacking_count = 0;
     for (size_t i = 0; i < info->material_count && status == SRP_OK; ++i) {
         srp_optics optics = {0.0, 0.0, false};
         if (!viewer_engine_optics(engine, i, &optics)) {
-            engine->optics_known = false;
-            char line[VIEWER_WORDS_SIZE];
-            snprintf(line, sizeof line,
-                     "the material '%.200s' has no optics: give them in Materials",
-                     info->materials[i].name);
-            viewer_words_add(&engine->problem, line);
+            if (lacking_count < NAMES_MAX) {
+                lacking[lacking_count] = info->materials[i].name;
+            }
+            ++lacking_count;
         }
         status = srp_materials_set(materials, info->materials[i].name, optics, false, error);
     }
+    engine->optics_known = lacking_count == 0;
+    ask_for_optics(engine, lacking, lacking_count);
     ask_for_mtl(engine);
     if (status == SRP_OK) {
         status = srp_scene_from_mesh(info->mesh, materials, &engine->mesh, error);

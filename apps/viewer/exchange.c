@@ -4,7 +4,6 @@
 #include "messages.h"
 #include "numbers.h"
 #include "saving.h"
-#include "state.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,7 +20,6 @@ void viewer_exchange_open(viewer *v, const char *path) {
         viewer_setup_clear_materials(setup);
     }
     if (viewer_setup_set_model(setup, full)) {
-        viewer_state_note_recent(v, full);
         viewer_complain(v, "");
         viewer_tell(v, CHANGED_SETUP);
         viewer_request_engine(v, !other);

@@ -180,7 +180,7 @@ void viewer_fit_request(viewer *v, unsigned plates) {
     job->job = (viewer_job){.run = fit_run, .deliver = fit_deliver, .release = fit_release};
     job->v = v;
     job->from = viewer_table_reference(v->session->tables[v->compared[0]]);
-    job->plates = plates < 1 ? 1 : plates > CLI_NORMALS_MAX ? CLI_NORMALS_MAX : plates;
+    job->plates = plates;
     viewer_worker_cancel(v->requests.batch, SLOT_FIT);
     viewer_worker_submit(v->requests.batch, SLOT_FIT, &job->job);
     viewer_tell(v, CHANGED_BUSY);

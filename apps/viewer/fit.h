@@ -6,8 +6,8 @@
 
 #include "viewer.h"
 
-/* Fits `plates` plates, normals searched, to table A of the comparison; what they give on its grid
- * becomes table B. */
+/* Fits `plates` plates (1 to CLI_NORMALS_MAX), normals searched, to table A of the comparison; what
+ * they give on its grid becomes table B. */
 void viewer_fit_request(viewer *v, unsigned plates);
 void viewer_fit_cancel(viewer *v);
 bool viewer_fit_is_running(const viewer *v);

@@ -22,6 +22,7 @@ typedef struct start {
     viewer v;
     char **operands;
     char *model, *tab, *screenshot, *size, *actions;
+    int width, height; /* of `size` */
     gboolean list, fresh, remember;
 } start;
 
@@ -38,18 +39,9 @@ static char *read_script(const char *path, GError **error) {
     return g_file_get_contents(path, &text, NULL, error) ? text : NULL;
 }
 
-/* What --size, --tab and --screenshot stand for, and then the file of --actions. */
+/* The file of --actions, and then what --screenshot stands for. */
 static char *script_of(const start *s, GError **error) {
     GString *text = g_string_new("");
-    if (s->size != NULL) {
-        char **parts = g_strsplit(s->size, "x", 2);
-        g_string_append_printf(text, "resize %s %s\n", parts[0], parts[1] != NULL ? parts[1] : "");
-        g_strfreev(parts);
-    }
-    if (s->tab != NULL) {
-        g_string_append_printf(text, "tab %s\n", s->tab);
-    }
-    g_string_append(text, "wait\n");
     if (s->actions != NULL) {
         char *steps = read_script(s->actions, error);
         if (steps == NULL) {
@@ -60,7 +52,7 @@ static char *script_of(const start *s, GError **error) {
         g_free(steps);
     }
     if (s->screenshot != NULL) {
-        g_string_append_printf(text, "\nscreenshot %s\n", s->screenshot);
+        g_string_append_printf(text, "\nwait\nscreenshot %s\n", s->screenshot);
     }
     return g_string_free(text, FALSE);
 }
@@ -77,6 +69,7 @@ static void begin(viewer *v) {
     v->shadows = true;
     v->table_shown = v->compared[0] = v->compared[1] = -1;
     v->charts_together = true;
+    v->plates_to_fit = 8;
     v->az_step_deg = v->el_step_deg = 10.0;
     v->asked_at = NAN;
     for (int k = 0; k < VIEWER_CHARTS; ++k) {
@@ -102,18 +95,20 @@ static void on_activate(GtkApplication *application, gpointer user) {
         return;
     }
     v->scripted = s->actions != NULL || s->screenshot != NULL;
-    v->strict = s->screenshot != NULL && s->actions == NULL;
     v->remembers = (!v->scripted || s->remember) && !s->fresh;
     viewer_build_window(v);
     if (v->remembers) {
         viewer_state_load(v);
     }
+    if (s->size != NULL) {
+        gtk_window_set_default_size(v->window, s->width, s->height);
+    }
     viewer_tell(v, CHANGED_ALL);
     gtk_window_present(v->window);
-    if (s->model != NULL) {
-        viewer_act_text(v, "open", s->model);
+    if (s->tab != NULL) {
+        viewer_act_text(v, "tab", s->tab);
     }
-    if (v->scripted || s->tab != NULL || s->size != NULL) {
+    if (v->scripted) {
         GError *error = NULL;
         char *text = script_of(s, &error);
         if (text == NULL) {
@@ -123,7 +118,10 @@ static void on_activate(GtkApplication *application, gpointer user) {
             gtk_window_close(v->window);
             return;
         }
-        viewer_script_run(v, s->actions != NULL ? s->actions : "options", text);
+        viewer_script_run(v, s->actions, text);
+    }
+    if (s->model != NULL) {
+        viewer_act_text(v, "open", s->model);
     }
 }
 
@@ -154,13 +152,14 @@ static bool is_tab(const char *tab) {
     return false;
 }
 
-static bool is_size(const char *size) {
-    int width, height, end = 0;
-    if (size == NULL ||
-        (sscanf(size, "%5dx%5d%n", &width, &height, &end) == 2 && size[end] == '\0')) {
+static bool read_size(start *s) {
+    int end = 0;
+    if (s->size == NULL || (sscanf(s->size, "%5dx%5d%n", &s->width, &s->height, &end) == 2 &&
+                            s->size[end] == '\0' && viewer_is_window_size(s->width, s->height))) {
         return true;
     }
-    g_printerr("srp-viewer: --size %s: expected WIDTHxHEIGHT in pixels, as 1280x800\n", size);
+    g_printerr("srp-viewer: --size %s: expected WIDTHxHEIGHT, %d to %d pixels each, as 1280x800\n",
+               s->size, WINDOW_SIZE_MIN, WINDOW_SIZE_MAX);
     return false;
 }
 
@@ -207,7 +206,7 @@ static int parse(start *s, int *argc, char ***argv) {
         print_actions();
         return 0;
     }
-    if (!is_tab(s->tab) || !is_size(s->size)) {
+    if (!is_tab(s->tab) || !read_size(s)) {
         return BAD_USAGE;
     }
     guint operands = s->operands != NULL ? g_strv_length(s->operands) : 0;

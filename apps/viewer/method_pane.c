@@ -12,7 +12,7 @@ enum { BOXES = 5, DEVICES_MAX = 16 };
 
 typedef struct pane {
     viewer *v;
-    GtkWidget *method, *device, *summary, *parameters, *more, *more_rows, *second;
+    GtkWidget *method, *device, *summary, *parameters, *more, *more_rows;
     GtkWidget *accuracy, *speed, *accuracy_words, *speed_words;
     const srp_method *shown; /* the method whose parameters are there */
     bool quiet;
@@ -109,13 +109,14 @@ static GtkWidget *parameter(pane *p, int option) {
     const cli_option *o = &cli_group_method.options[option];
     GtkWidget *entry =
         ui_entry(p->v, o->name, option == METHOD_WINDOW ? 14 : 7, "parameter", o->name);
+    gtk_editable_set_width_chars(GTK_EDITABLE(entry), 5); /* at least */
     char buffer[32], label[48], help[VIEWER_WORDS_SIZE];
     viewer_words_method_field(option, label, sizeof label);
     viewer_words_for_window(o->help, help, sizeof help);
     char *tip = g_strdup_printf("%s: %s (srp: --%s)", label, o->value, o->name);
     gtk_entry_set_placeholder_text(GTK_ENTRY(entry), default_of(option, buffer, sizeof buffer));
     ui_entry_show(entry, p->v->session->setup->method_option[option]);
-    GtkWidget *box = ui_box(GTK_ORIENTATION_HORIZONTAL, 4);
+    GtkWidget *box = ui_box(GTK_ORIENTATION_HORIZONTAL, 3);
     GtkWidget *words = ui_mnemonic(label, entry);
     gtk_box_append(GTK_BOX(box), words);
     gtk_box_append(GTK_BOX(box), entry);
@@ -126,7 +127,10 @@ static GtkWidget *parameter(pane *p, int option) {
 }
 
 static void rebuild_parameters(pane *p, const srp_method *method) {
-    ui_clear(p->parameters);
+    GtkWidget *title = gtk_widget_get_first_child(p->parameters);
+    for (GtkWidget *child; (child = gtk_widget_get_next_sibling(title)) != NULL;) {
+        gtk_box_remove(GTK_BOX(p->parameters), child);
+    }
     ui_clear(p->more_rows);
     int shown = 0, further = 0;
     for (size_t i = 0; method != NULL && i < G_N_ELEMENTS(FIRST); ++i) {
@@ -143,8 +147,10 @@ static void rebuild_parameters(pane *p, const srp_method *method) {
             ++further;
         }
     }
-    gtk_widget_set_visible(p->more, further > 0);
-    gtk_widget_set_visible(p->second, shown + further > 0);
+    if (further > 0) {
+        gtk_box_append(GTK_BOX(p->parameters), p->more);
+    }
+    gtk_widget_set_visible(p->parameters, shown + further > 0);
 }
 
 static void refresh_parameters(pane *p, GtkWidget *box) {
@@ -166,7 +172,6 @@ static void show_setup(pane *p) {
     show_devices(p, method);
     p->quiet = false;
     gtk_label_set_text(GTK_LABEL(p->summary), method != NULL ? method->summary : "");
-    gtk_widget_set_tooltip_text(p->summary, method != NULL ? method->summary : NULL);
     if (method != p->shown) {
         p->shown = method;
         rebuild_parameters(p, method);
@@ -227,9 +232,6 @@ static GtkWidget *meter(const char *word, GtkWidget **boxes, GtkWidget **words, 
     *words = ui_label("", "dim small");
     gtk_widget_set_name(*boxes, name);
     gtk_widget_set_name(*words, full);
-    gtk_label_set_wrap(GTK_LABEL(*words), TRUE);
-    gtk_label_set_natural_wrap_mode(GTK_LABEL(*words), GTK_NATURAL_WRAP_NONE);
-    gtk_label_set_max_width_chars(GTK_LABEL(*words), 24);
     gtk_box_append(GTK_BOX(box), ui_label(word, NULL));
     gtk_box_append(GTK_BOX(box), *boxes);
     gtk_box_append(GTK_BOX(box), *words);
@@ -239,6 +241,12 @@ static GtkWidget *meter(const char *word, GtkWidget **boxes, GtkWidget **words, 
 }
 
 /* ---- together ---- */
+
+static void free_pane(gpointer user) {
+    pane *p = user;
+    g_object_unref(p->more);
+    g_free(p);
+}
 
 static void on_changed(void *user, unsigned what) {
     pane *p = user;
@@ -253,11 +261,49 @@ static void on_changed(void *user, unsigned what) {
 static void make_more(pane *p) {
     GtkWidget *popover = gtk_popover_new();
     p->more_rows = ui_box(GTK_ORIENTATION_VERTICAL, 6);
-    p->more = gtk_menu_button_new();
+    p->more = g_object_ref_sink(gtk_menu_button_new()); /* it comes and goes */
     gtk_popover_set_child(GTK_POPOVER(popover), p->more_rows);
     gtk_menu_button_set_label(GTK_MENU_BUTTON(p->more), "More");
     gtk_menu_button_set_popover(GTK_MENU_BUTTON(p->more), popover);
     gtk_widget_set_valign(p->more, GTK_ALIGN_CENTER);
+}
+
+/* What each method does. */
+static GtkWidget *explanation(void) {
+    GString *text = g_string_new("");
+    const srp_method *method;
+    for (size_t i = 0; (method = cli_method_named_at(i)) != NULL; ++i) {
+        g_string_append_printf(text, "%s%s: %s.", i > 0 ? "\n" : "", method->name, method->summary);
+    }
+    GtkWidget *button = ui_explanation("Methods", text->str);
+    g_string_free(text, TRUE);
+    return button;
+}
+
+static GtkWidget *make_choices(pane *p) {
+    GtkWidget *box = ui_box(GTK_ORIENTATION_HORIZONTAL, 10);
+    gtk_box_append(GTK_BOX(box), p->method);
+    gtk_box_append(GTK_BOX(box), explanation());
+    gtk_box_append(GTK_BOX(box), ui_mnemonic("on", p->device));
+    gtk_box_append(GTK_BOX(box), p->device);
+    return box;
+}
+
+static GtkWidget *make_first(pane *p) {
+    GtkWidget *strip = ui_titled_strip(ui_mnemonic("Metho_d", p->method));
+    gtk_box_append(GTK_BOX(strip), make_choices(p));
+    gtk_box_append(GTK_BOX(strip), p->summary);
+    gtk_box_append(
+        GTK_BOX(strip),
+        meter("Accuracy", &p->accuracy, &p->accuracy_words, "accuracy",
+              "Measured now, on this model, in up to 12 directions: the largest distance "
+              "from the method exact, or the method's own standard error, as a share of "
+              "|f|. A box for each factor of ten: 10 %, 1 %, ..."));
+    gtk_box_append(GTK_BOX(strip),
+                   meter("Speed", &p->speed, &p->speed_words, "speed",
+                         "Measured now, on this machine and this model, in up to 12 directions. A "
+                         "box for each factor of ten: 1, 10, 100, ... directions per second."));
+    return strip;
 }
 
 GtkWidget *viewer_method_pane(viewer *v) {
@@ -266,40 +312,14 @@ GtkWidget *viewer_method_pane(viewer *v) {
     p->quiet = true;
     p->method = ui_choice("method", G_CALLBACK(on_method), p);
     p->device = ui_choice("device", G_CALLBACK(on_device), p);
-    p->summary = ui_label("", "dim");
-    gtk_label_set_ellipsize(GTK_LABEL(p->summary), PANGO_ELLIPSIZE_END);
-    gtk_widget_set_hexpand(p->summary, TRUE);
-    gtk_widget_set_name(p->summary, "method-summary");
-    p->parameters = ui_box(GTK_ORIENTATION_HORIZONTAL, 14);
+    p->summary = ui_paragraph("method-summary", "dim small", 40);
+    p->parameters = ui_titled_strip(ui_label("", NULL));
     make_more(p);
-    GtkWidget *first = ui_box(GTK_ORIENTATION_HORIZONTAL, 10);
-    GtkWidget *second = ui_box(GTK_ORIENTATION_HORIZONTAL, 10);
-    p->second = ui_strip(second);
-    GtkWidget *word = ui_mnemonic("Metho_d", p->method);
-    gtk_widget_add_css_class(word, "title-word");
-    gtk_box_append(GTK_BOX(first), word);
-    gtk_box_append(GTK_BOX(first), p->method);
-    gtk_box_append(GTK_BOX(first), ui_mnemonic("on", p->device));
-    gtk_box_append(GTK_BOX(first), p->device);
-    gtk_box_append(GTK_BOX(first), p->summary);
-    gtk_box_append(GTK_BOX(second), ui_label("", "title-word"));
-    gtk_box_append(GTK_BOX(second), p->parameters);
-    gtk_box_append(GTK_BOX(second), p->more);
-    gtk_box_append(
-        GTK_BOX(first),
-        meter("Accuracy", &p->accuracy, &p->accuracy_words, "accuracy",
-              "Measured now, on this model, in up to 12 directions: the largest distance "
-              "from the method exact, or the method's own standard error, as a share of "
-              "|f|. A box for each factor of ten: 10 %, 1 %, ..."));
-    gtk_box_append(GTK_BOX(first),
-                   meter("Speed", &p->speed, &p->speed_words, "speed",
-                         "Measured now, on this machine and this model, in up to 12 directions. A "
-                         "box for each factor of ten: 1, 10, 100, ... directions per second."));
     GtkWidget *box = ui_box(GTK_ORIENTATION_VERTICAL, 4);
-    gtk_box_append(GTK_BOX(box), first);
-    gtk_box_append(GTK_BOX(box), p->second);
+    gtk_box_append(GTK_BOX(box), make_first(p));
+    gtk_box_append(GTK_BOX(box), p->parameters);
     gtk_widget_add_css_class(box, "pane");
-    g_object_set_data_full(G_OBJECT(box), "pane", p, g_free);
+    g_object_set_data_full(G_OBJECT(box), "pane", p, free_pane);
     viewer_listen(v, on_changed, p);
     return box;
 }

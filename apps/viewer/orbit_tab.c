@@ -206,7 +206,7 @@ static void free_pane(gpointer user) {
 /* ---- together ---- */
 
 static GtkWidget *make_strip(pane *p) {
-    GtkWidget *box = ui_box(GTK_ORIENTATION_HORIZONTAL, 8);
+    GtkWidget *box = ui_strip(8);
     p->file[0] = ui_button("Mi_ssion…", "choose-mission", "Open a mission file");
     p->file[1] = ui_button("Compare _with…", "choose-versus", "Open the mission to compare with");
     p->drop = ui_button("×", "versus", "Compare with none");
@@ -248,7 +248,7 @@ GtkWidget *viewer_orbit_tab(viewer *v) {
     gtk_widget_set_hexpand(p->plot, TRUE);
     gtk_widget_set_vexpand(p->plot, TRUE);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(p->plot), draw, p, NULL);
-    gtk_box_append(GTK_BOX(box), ui_strip(make_strip(p)));
+    gtk_box_append(GTK_BOX(box), make_strip(p));
     gtk_box_append(GTK_BOX(box), p->facts);
     gtk_box_append(GTK_BOX(box), p->last);
     gtk_box_append(GTK_BOX(box), p->plot);

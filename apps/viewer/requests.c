@@ -3,6 +3,7 @@
 
 #include "exchange.h"
 #include "numbers.h"
+#include "recent.h"
 #include "viewer.h"
 
 #include <math.h>
@@ -69,6 +70,9 @@ static void engine_deliver(viewer_job *base) {
     bool newest = !viewer_worker_is_busy(v->requests.live, SLOT_ENGINE);
     viewer_complain_of_model(v, newest ? engine->problem.text : "");
     viewer_tell(v, CHANGED_ENGINE | CHANGED_FORCE | CHANGED_ARROWS | CHANGED_PROBE | CHANGED_BUSY);
+    if (engine->shape != NULL) {
+        viewer_recent_note(v, engine->shape->path);
+    }
     if (engine->prepared != NULL) {
         viewer_request_force(v);
         request_probe(v);

@@ -57,16 +57,23 @@ static void show_trouble(area *a, const char *text) {
     gtk_widget_set_visible(a->trouble, text[0] != '\0');
 }
 
+static void show_no_picture(area *a, const char *reason) {
+    char *text = g_strdup_printf(
+        "No picture: it takes OpenGL 3.3.\n%s\n\nNumbers, tables and orbits go on without it.\n"
+        "A newer graphics driver gives the picture, and so may LIBGL_ALWAYS_SOFTWARE=1 before "
+        "srp-viewer, where Mesa is installed; srp picture draws into a file.",
+        reason);
+    show_trouble(a, text);
+    g_free(text);
+}
+
 static void on_realize(GtkGLArea *gl, gpointer user) {
     area *a = user;
     srp_error error;
     gtk_gl_area_make_current(gl);
     GError *problem = gtk_gl_area_get_error(gl);
     if (problem != NULL) {
-        char *text =
-            g_strdup_printf("No picture: %s\nAll numbers are there without it.", problem->message);
-        show_trouble(a, text);
-        g_free(text);
+        show_no_picture(a, problem->message);
         return;
     }
     static const char *const libraries[] = {"libEGL.so.1", "libGL.so.1"};
@@ -74,12 +81,15 @@ static void on_realize(GtkGLArea *gl, gpointer user) {
         a->library = g_module_open(libraries[i], G_MODULE_BIND_LAZY);
     }
     if (srp_renderer_create(find_function, a, &a->renderer, &error) != SRP_OK) {
-        char *text =
-            g_strdup_printf("No picture: %s\nAll numbers are there without it.", error.message);
-        show_trouble(a, text);
-        g_free(text);
+        show_no_picture(a, error.message);
         a->renderer = NULL;
     }
+}
+
+/* GTK would write its own words over ours. */
+static void on_map(GtkWidget *widget, gpointer user) {
+    area *a = user;
+    gtk_widget_set_visible(widget, a->renderer != NULL);
 }
 
 static void on_unrealize(GtkGLArea *gl, gpointer user) {
@@ -476,9 +486,9 @@ GtkWidget *viewer_scene_area(viewer *v) {
     gtk_gl_area_set_auto_render(GTK_GL_AREA(a->gl), FALSE);
     gtk_widget_set_name(a->gl, "scene");
     ui_name(a->gl, "Picture of the spacecraft; arrow keys turn the camera");
-    gtk_widget_set_size_request(a->gl, 320, 220);
     g_signal_connect(a->gl, "realize", G_CALLBACK(on_realize), a);
     g_signal_connect(a->gl, "unrealize", G_CALLBACK(on_unrealize), a);
+    g_signal_connect_after(a->gl, "map", G_CALLBACK(on_map), a);
     g_signal_connect(a->gl, "render", G_CALLBACK(on_render), a);
     g_signal_connect(a->gl, "unmap", G_CALLBACK(on_unmap), a);
     viewer_turning_add(a->gl, &CAMERA, a);
@@ -492,11 +502,14 @@ GtkWidget *viewer_scene_area(viewer *v) {
     a->trouble = ui_label("", "dim");
     gtk_widget_set_name(a->trouble, "trouble");
     gtk_label_set_wrap(GTK_LABEL(a->trouble), TRUE);
+    gtk_label_set_width_chars(GTK_LABEL(a->trouble), 44);
+    gtk_label_set_max_width_chars(GTK_LABEL(a->trouble), 44);
     gtk_label_set_justify(GTK_LABEL(a->trouble), GTK_JUSTIFY_CENTER);
     gtk_widget_set_halign(a->trouble, GTK_ALIGN_CENTER);
     gtk_widget_set_visible(a->trouble, FALSE);
     GtkWidget *overlay = gtk_overlay_new();
     gtk_widget_set_name(overlay, "scene-picture");
+    gtk_widget_set_size_request(overlay, 320, 170);
     gtk_overlay_set_child(GTK_OVERLAY(overlay), a->gl);
     gtk_overlay_add_overlay(GTK_OVERLAY(overlay), a->marks);
     gtk_overlay_add_overlay(GTK_OVERLAY(overlay), a->trouble);

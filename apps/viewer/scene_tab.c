@@ -158,51 +158,50 @@ static void show_latency(pane *p) {
     gtk_label_set_text(GTK_LABEL(p->latency), text);
 }
 
-/* Columns of vectors' components, with a heading each; `length` names the last row. */
-static int add_vectors(pane *p, GtkGrid *grid, int at, const char *const *heads, const char *length,
-                       int first, int count) {
-    const char *const rows[4] = {"x", "y", "z", length};
-    for (int c = 0; c < count; ++c) {
-        GtkWidget *head = ui_label(heads[c], "heading small");
-        gtk_label_set_xalign(GTK_LABEL(head), 1.0f);
-        gtk_widget_set_margin_top(head, at > 0 ? 10 : 2);
-        gtk_grid_attach(grid, head, 1 + c, at, 1, 1);
-    }
-    for (int k = 0; k < 4; ++k) {
-        gtk_grid_attach(grid, ui_label(rows[k], "dim"), 0, at + 1 + k, 1, 1);
-        for (int c = 0; c < count; ++c) {
-            char name[40];
-            snprintf(name, sizeof name, "%s-%c", VECTOR_NAME[first + c], "xyzn"[k]);
-            p->vector[first + c][k] = ui_value(name);
-            gtk_widget_set_hexpand(p->vector[first + c][k], TRUE);
-            gtk_grid_attach(grid, p->vector[first + c][k], 1 + c, at + 1 + k, 1, 1);
-        }
-    }
-    return at + 5;
+static void add_head(GtkGrid *grid, const char *text, int column, int row) {
+    GtkWidget *head = ui_label(text, "heading small");
+    gtk_label_set_xalign(GTK_LABEL(head), 1.0f);
+    gtk_widget_set_margin_top(head, row > 0 ? 10 : 2);
+    gtk_grid_attach(grid, head, column, row, 1, 1);
 }
 
+/* Columns of components, with a heading each, from row `at` on; below the first its error. */
+static void add_vectors(pane *p, GtkGrid *grid, int at, const char *const *heads, const int *which,
+                        int count, GtkWidget *error) {
+    static const char *const rows[] = {"x", "y", "z", "length", "±"};
+    for (int k = 0; k < 5; ++k) {
+        gtk_grid_attach(grid, ui_label(rows[k], "dim"), 0, at + 1 + k, 1, 1);
+    }
+    for (int c = 0; c < count; ++c) {
+        add_head(grid, heads[c], 1 + c, at);
+        for (int k = 0; k < 4; ++k) {
+            char name[40];
+            snprintf(name, sizeof name, "%s-%c", VECTOR_NAME[which[c]], "xyzn"[k]);
+            p->vector[which[c]][k] = ui_value(name);
+            gtk_label_set_width_chars(GTK_LABEL(p->vector[which[c]][k]), 16);
+            gtk_widget_set_hexpand(p->vector[which[c]][k], TRUE);
+            gtk_grid_attach(grid, p->vector[which[c]][k], 1 + c, at + 1 + k, 1, 1);
+        }
+    }
+    gtk_grid_attach(grid, error, 1, at + 5, 1, 1);
+}
+
+/* What pushes above what turns: three columns, so that a low window shows all of them. */
 static GtkWidget *make_numbers(pane *p) {
-    static const char *const areas[] = {"Force f [m²]", "Moment t [m³]"};
-    static const char *const forces[] = {"F [N]", "T [N m]"};
-    static const char *const accelerations[] = {"a [m/s²]"};
+    static const char *const pushes[] = {"Force f [m²]", "F [N]", "a [m/s²]"};
+    static const char *const turns[] = {"Moment t [m³]", "T [N m]"};
+    static const int push[] = {F_AREA, F_FORCE, F_ACCELERATION}, turn[] = {F_MOMENT, F_TORQUE};
+    const int below = 6;
     GtkWidget *widget = gtk_grid_new();
     GtkGrid *grid = GTK_GRID(widget);
     gtk_grid_set_column_spacing(grid, 10);
-    int at = add_vectors(p, grid, 0, areas, "|f|, |t|", F_AREA, 2);
     p->error[0] = ui_value("f-error");
     p->error[1] = ui_value("t-error");
-    gtk_grid_attach(grid, ui_label("±", "dim"), 0, at, 1, 1);
-    gtk_grid_attach(grid, p->error[0], 1, at, 1, 1);
-    gtk_grid_attach(grid, p->error[1], 2, at++, 1, 1);
-    at = add_vectors(p, grid, at, forces, "|F|, |T|", F_FORCE, 2);
-    at = add_vectors(p, grid, at, accelerations, "|a|", F_ACCELERATION, 1);
-    GtkWidget *head = ui_label("Lit area [m²]", "heading small");
-    gtk_label_set_xalign(GTK_LABEL(head), 1.0f);
-    gtk_widget_set_margin_top(head, 10);
     p->lit = ui_value("lit-area");
-    gtk_widget_set_valign(p->lit, GTK_ALIGN_START);
-    gtk_grid_attach(grid, head, 2, at - 5, 1, 1);
-    gtk_grid_attach(grid, p->lit, 2, at - 4, 1, 1);
+    add_vectors(p, grid, 0, pushes, push, 3, p->error[0]);
+    add_vectors(p, grid, below, turns, turn, 2, p->error[1]);
+    add_head(grid, "Lit area [m²]", 3, below);
+    gtk_grid_attach(grid, p->lit, 3, below + 1, 1, 1);
     return widget;
 }
 
@@ -262,10 +261,8 @@ static GtkWidget *make_side(pane *p) {
     gtk_box_append(GTK_BOX(side), make_numbers(p));
     gtk_box_append(GTK_BOX(side), p->extra);
     gtk_box_append(GTK_BOX(side), p->latency);
-    gtk_widget_add_css_class(side, "side");
     gtk_widget_set_size_request(side, 380, -1);
-    gtk_widget_set_hexpand(side, FALSE);
-    return side;
+    return ui_side(side);
 }
 
 /* ---- together ---- */

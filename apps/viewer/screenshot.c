@@ -60,7 +60,7 @@ bool viewer_picture_save(GtkWidget *widget, const char *path, viewer_words *prob
     return good;
 }
 
-bool viewer_screenshot(viewer *v, const char *path) {
+void viewer_screenshot(viewer *v, const char *path) {
     GtkWidget *window = GTK_WIDGET(v->window);
     GdkPaintable *paintable = gtk_widget_paintable_new(window);
     int width = gdk_paintable_get_intrinsic_width(paintable);
@@ -75,5 +75,4 @@ bool viewer_screenshot(viewer *v, const char *path) {
         viewer_complain(v, words);
         g_free(words);
     }
-    return good;
 }

@@ -13,36 +13,93 @@
 
 typedef struct script {
     viewer *v;
-    char *name;
+    char *name; /* NULL: made of options */
     char **lines;
     size_t at;
     double resume_at; /* [s] */
-    bool waits;
-    bool quiet; /* nothing is computed any more, since frame `quiet_at` */
-    gint64 quiet_at;
-    const char *shot; /* picture to take when all is shown; NULL: none */
+    bool waits;       /* until nothing is computed any more */
+    gint64 shown_at;  /* the frame that shows what there is to see */
+    const char *shot; /* picture to take then; NULL: none */
+    char *unexpected; /* complaint that nothing has expected yet, NULL: none */
+    size_t unexpected_at;
+    char *expected;   /* the last one that was */
     double ticked_at; /* NAN: not since the last `stall` */
     double stall;     /* the longest time between two ticks since then [s] */
 } script;
 
-enum { TICK_MS = 4, QUIET_FRAMES = 3 };
+enum { TICK_MS = 4, FRAMES_TO_SHOW = 3 };
 
 static void script_free(gpointer user) {
     script *s = user;
     g_strfreev(s->lines);
     g_free(s->name);
+    g_free(s->unexpected);
+    g_free(s->expected);
     g_free(s);
 }
 
-static gboolean fail(script *s, const char *what) {
-    g_printerr("%s:%zu: %s\n", s->name, s->at, what);
+static gboolean fail_at(script *s, size_t line, const char *what) {
+    if (s->name != NULL) {
+        g_printerr("%s:%zu: %s\n", s->name, line, what);
+    } else {
+        g_printerr("srp-viewer: %s\n", what);
+    }
     s->v->exit_status = 1;
     return FALSE;
+}
+
+static gboolean fail(script *s, const char *what) {
+    return fail_at(s, s->at, what);
+}
+
+/* ---- complaints ---- */
+
+/* A complaint that nothing expected is a failure of the script, which goes on. */
+static void judge_complaint(script *s) {
+    if (s->unexpected != NULL) {
+        fail_at(s, s->unexpected_at, s->unexpected);
+        g_clear_pointer(&s->unexpected, g_free);
+    }
+}
+
+static void note_complaint(script *s) {
+    judge_complaint(s);
+    s->unexpected = g_strdup(s->v->message);
+    s->unexpected_at = s->at;
+}
+
+static void accept_complaint(script *s) {
+    g_clear_pointer(&s->unexpected, g_free);
+    g_free(s->expected);
+    s->expected = g_strdup(s->v->message);
+}
+
+static void on_changed(void *user, unsigned what) {
+    script *s = user;
+    const viewer *v = s->v;
+    if ((what & CHANGED_MESSAGE) != 0 && v->message_is_problem && !v->message_is_of_model) {
+        note_complaint(s);
+    }
+}
+
+/* What is wrong with the model counts where it stands after a wait of the script: while that is
+ * still saying what the model is, it may well lack something. */
+static void note_complaint_of_model(script *s) {
+    const char *text = s->v->message;
+    if (s->v->message_is_of_model && s->at > 0 && g_strcmp0(text, s->expected) != 0 &&
+        g_strcmp0(text, s->unexpected) != 0) {
+        note_complaint(s);
+    }
 }
 
 /* ---- texts of widgets ---- */
 
 static char *text_of(GtkWidget *widget) {
+    if (GTK_IS_GL_AREA(widget)) { /* GTK writes into it why there is no picture */
+        GError *problem =
+            gtk_widget_get_mapped(widget) ? gtk_gl_area_get_error(GTK_GL_AREA(widget)) : NULL;
+        return g_strdup(problem != NULL ? problem->message : "");
+    }
     if (GTK_IS_LABEL(widget)) {
         return g_strdup(gtk_label_get_text(GTK_LABEL(widget)));
     }
@@ -108,6 +165,8 @@ static gboolean expect_text(script *s, char *words) {
                                      wanted != NULL ? wanted : "");
         fail(s, said);
         g_free(said);
+    } else if (strcmp(words, "message") == 0 && s->v->message_is_problem) {
+        accept_complaint(s);
     }
     g_free(text);
     return good;
@@ -194,6 +253,15 @@ static gboolean move_pointer(script *s, char *words) {
 
 /* ---- steps ---- */
 
+static gint64 frame_now(const script *s) {
+    return gdk_frame_clock_get_frame_counter(gtk_widget_get_frame_clock(GTK_WIDGET(s->v->window)));
+}
+
+/* What has changed is shown some frames later. */
+static void wait_for_frames(script *s) {
+    s->shown_at = frame_now(s) + FRAMES_TO_SHOW;
+}
+
 static gboolean activate(script *s, const char *name, const char *rest) {
     size_t count;
     const viewer_action *actions = viewer_action_list(&count);
@@ -224,7 +292,7 @@ static gboolean resize(script *s, const char *rest) {
     char *end;
     width = (int)strtol(rest, &end, 10);
     height = (int)strtol(end, NULL, 10);
-    if (width < 100 || height < 100) {
+    if (!viewer_is_window_size(width, height)) {
         return fail(s, "expected resize WIDTH HEIGHT");
     }
     gtk_window_set_default_size(s->v->window, width, height);
@@ -242,7 +310,12 @@ static gboolean step(script *s, char *line) {
     }
     if (strcmp(line, "wait") == 0) {
         s->waits = true;
-        s->quiet = false;
+        wait_for_frames(s);
+        return TRUE;
+    }
+    if (strcmp(line, "screenshot") == 0) {
+        s->shot = rest;
+        wait_for_frames(s);
         return TRUE;
     }
     if (strcmp(line, "pause") == 0) {
@@ -270,12 +343,6 @@ static gboolean step(script *s, char *line) {
     if (strcmp(line, "point") == 0) {
         return move_pointer(s, rest);
     }
-    if (strcmp(line, "screenshot") == 0) {
-        s->shot = rest;
-        s->waits = true;
-        s->quiet = false;
-        return TRUE;
-    }
     if (strcmp(line, "stall") == 0) {
         g_print("stall: %.0f ms\n", 1e3 * s->stall);
         s->stall = 0.0;
@@ -292,30 +359,23 @@ static gboolean step(script *s, char *line) {
     return activate(s, line, rest);
 }
 
-/* Is there something to wait for? What has been computed is shown when some frames have been drawn
- * since. */
+/* Is there something to wait for? */
 static bool is_unsettled(script *s) {
     if (viewer_seconds() < s->resume_at) {
         return true;
     }
-    if (!s->waits) {
-        return false;
-    }
-    GdkFrameClock *clock = gtk_widget_get_frame_clock(GTK_WIDGET(s->v->window));
-    gint64 frame = gdk_frame_clock_get_frame_counter(clock);
-    if (viewer_requests_busy(s->v) || s->v->picture_is_old) {
-        s->quiet = false;
+    if (s->waits && (viewer_requests_busy(s->v) || s->v->picture_is_old)) {
+        wait_for_frames(s);
         return true;
     }
-    if (!s->quiet) {
-        s->quiet = true;
-        s->quiet_at = frame;
-    }
-    if (frame < s->quiet_at + QUIET_FRAMES) {
+    if (frame_now(s) < s->shown_at) {
         gtk_widget_queue_draw(GTK_WIDGET(s->v->window));
         return true;
     }
-    s->waits = false;
+    if (s->waits) {
+        s->waits = false;
+        note_complaint_of_model(s);
+    }
     return false;
 }
 
@@ -335,15 +395,15 @@ static gboolean tick(gpointer user) {
     if (is_unsettled(s)) {
         return G_SOURCE_CONTINUE;
     }
-    const char *shot = s->shot;
-    s->shot = NULL;
-    gboolean good = shot == NULL || viewer_screenshot(s->v, shot) || fail(s, s->v->message);
-    if (good && s->lines[s->at] != NULL && step(s, s->lines[s->at++])) {
+    if (s->shot != NULL) {
+        viewer_act_text(s->v, "screenshot", s->shot);
+        s->shot = NULL;
+    }
+    if (s->lines[s->at] != NULL && step(s, s->lines[s->at++])) {
         return G_SOURCE_CONTINUE;
     }
-    if (s->v->scripted) {
-        gtk_window_close(s->v->window);
-    }
+    judge_complaint(s);
+    gtk_window_close(s->v->window);
     return G_SOURCE_REMOVE;
 }
 
@@ -352,7 +412,10 @@ void viewer_script_run(viewer *v, const char *name, char *text) {
     s->v = v;
     s->name = g_strdup(name);
     s->ticked_at = NAN;
+    s->waits = true;
+    wait_for_frames(s);
     s->lines = g_strsplit(text, "\n", -1);
     g_free(text);
+    viewer_listen(v, on_changed, s); /* until the window is closed, and it outlives that */
     g_timeout_add_full(G_PRIORITY_DEFAULT, TICK_MS, tick, s, script_free);
 }

@@ -13,18 +13,21 @@
  *     enter WIDGET TEXT        writes into an entry and leaves it
  *     press WIDGET KEY         gives it the focus and a key, "Left"
  *     point WIDGET X,Y         moves the pointer to this pixel of it
- *     screenshot FILE          as the action, after a wait
+ *     screenshot FILE          as the action, when what there is by then is drawn
  *     note TEXT                on standard output
  *     # ...                    nothing
  *
- * At its end the window is closed, if the viewer is scripted.
+ * It begins when the model is shown. A complaint of the window that no `expect message` has seen
+ * when the next one comes, or at the end, makes the status 1, too, but does not end the script. At
+ * its end the window is closed.
  */
 #ifndef SRP_VIEWER_SCRIPT_H
 #define SRP_VIEWER_SCRIPT_H
 
 #include "viewer.h"
 
-/* Takes `text` over and begins to run it; `name` stands for it in messages. */
+/* Takes `text` over and begins to run it; `name` stands for it in messages, NULL for a script that
+ * options stand for. */
 void viewer_script_run(viewer *v, const char *name, char *text);
 
 #endif

@@ -195,6 +195,8 @@ static void show_materials(pane *p, viewer_engine *engine) {
 
 /* ---- the rest ---- */
 
+enum { NAME_CHARS = 16 }; /* a longer name gives way to the rest */
+
 static const char *const UNITS[] = {"m", "cm", "mm", "in", "ft", NULL};
 
 static void on_unit(GtkDropDown *unit, GParamSpec *spec, gpointer user) {
@@ -213,6 +215,10 @@ static void show_setup(pane *p) {
     char *base = setup->model != NULL ? g_path_get_basename(setup->model) : g_strdup("None yet");
     char *valid = g_utf8_make_valid(base, -1);
     gtk_label_set_text(GTK_LABEL(p->name), valid);
+    bool is_long = g_utf8_strlen(valid, -1) > NAME_CHARS;
+    gtk_label_set_ellipsize(GTK_LABEL(p->name),
+                            is_long ? PANGO_ELLIPSIZE_MIDDLE : PANGO_ELLIPSIZE_NONE);
+    gtk_label_set_width_chars(GTK_LABEL(p->name), is_long ? NAME_CHARS : -1);
     gtk_widget_set_tooltip_text(p->name, setup->model);
     g_free(valid);
     g_free(base);
@@ -252,18 +258,6 @@ static void free_pane(gpointer user) {
     g_free(p);
 }
 
-static GtkWidget *scrolled_popover(GtkWidget *child, int height) {
-    GtkWidget *popover = gtk_popover_new(), *scrolled = gtk_scrolled_window_new();
-    gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scrolled), GTK_POLICY_NEVER,
-                                   GTK_POLICY_AUTOMATIC);
-    gtk_scrolled_window_set_propagate_natural_height(GTK_SCROLLED_WINDOW(scrolled), TRUE);
-    gtk_scrolled_window_set_propagate_natural_width(GTK_SCROLLED_WINDOW(scrolled), TRUE);
-    gtk_scrolled_window_set_max_content_height(GTK_SCROLLED_WINDOW(scrolled), height);
-    gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scrolled), child);
-    gtk_popover_set_child(GTK_POPOVER(popover), scrolled);
-    return popover;
-}
-
 static void make_popovers(pane *p) {
     p->report = gtk_menu_button_new();
     p->report_words = ui_label("", NULL);
@@ -272,7 +266,7 @@ static void make_popovers(pane *p) {
     gtk_label_set_wrap(GTK_LABEL(p->report_words), TRUE);
     gtk_label_set_max_width_chars(GTK_LABEL(p->report_words), 70);
     gtk_menu_button_set_use_underline(GTK_MENU_BUTTON(p->report), TRUE);
-    gtk_menu_button_set_popover(GTK_MENU_BUTTON(p->report), scrolled_popover(p->report_words, 420));
+    gtk_menu_button_set_popover(GTK_MENU_BUTTON(p->report), ui_popover(p->report_words, 420));
     p->materials = gtk_menu_button_new();
     p->material_rows = gtk_grid_new();
     gtk_grid_set_column_spacing(GTK_GRID(p->material_rows), 10);
@@ -285,11 +279,13 @@ static void make_popovers(pane *p) {
     gtk_box_append(GTK_BOX(box), reset);
     gtk_menu_button_set_label(GTK_MENU_BUTTON(p->materials), "_Materials");
     gtk_menu_button_set_use_underline(GTK_MENU_BUTTON(p->materials), TRUE);
-    gtk_menu_button_set_popover(GTK_MENU_BUTTON(p->materials), scrolled_popover(box, 420));
+    gtk_menu_button_set_popover(GTK_MENU_BUTTON(p->materials), ui_popover(box, 420));
     gtk_widget_set_name(p->materials, "materials");
 }
 
-static void make_fields(pane *p, GtkBox *line) {
+static GtkWidget *make_fields(pane *p) {
+    GtkWidget *strip = ui_titled_strip(ui_label("", NULL));
+    GtkBox *line = GTK_BOX(strip);
     p->mass = ui_entry(p->v, "mass", 8, "mass", NULL);
     p->reference = ui_entry(p->v, "reference", 10, "parameter", "reference");
     gtk_entry_set_placeholder_text(GTK_ENTRY(p->mass), "kg");
@@ -299,44 +295,36 @@ static void make_fields(pane *p, GtkBox *line) {
     gtk_widget_set_valign(p->unit, GTK_ALIGN_CENTER);
     g_signal_connect(p->unit, "notify::selected", G_CALLBACK(on_unit), p);
     p->plates = ui_button("_Plates…", "choose-plates", "Plates file of the method nplate");
-    gtk_box_append(line, ui_mnemonic("Mass [_kg]", p->mass));
-    gtk_box_append(line, p->mass);
-    gtk_box_append(line, ui_mnemonic("Mome_nts about [m]", p->reference));
-    gtk_box_append(line, p->reference);
+    GtkWidget *reference = ui_pair(ui_mnemonic("Mome_nts about [m]", p->reference), p->reference);
     gtk_box_append(
-        line, ui_explanation("Reference point", cli_group_method.options[METHOD_REFERENCE].help));
-    gtk_box_append(line, ui_mnemonic("Un_it", p->unit));
-    gtk_box_append(line, p->unit);
+        GTK_BOX(reference),
+        ui_explanation("Reference point", cli_group_method.options[METHOD_REFERENCE].help));
+    gtk_box_append(line, ui_pair(ui_mnemonic("Mass [_kg]", p->mass), p->mass));
+    gtk_box_append(line, reference);
+    gtk_box_append(line, ui_pair(ui_mnemonic("Un_it", p->unit), p->unit));
     gtk_box_append(line, p->plates);
+    return strip;
 }
 
 GtkWidget *viewer_spacecraft_pane(viewer *v) {
     pane *p = g_new0(pane, 1);
     p->v = v;
     GtkWidget *box = ui_box(GTK_ORIENTATION_VERTICAL, 4);
-    GtkWidget *first = ui_box(GTK_ORIENTATION_HORIZONTAL, 10);
-    GtkWidget *second = ui_box(GTK_ORIENTATION_HORIZONTAL, 10);
+    GtkWidget *first = ui_titled_strip(ui_label("Spacecraft", NULL));
     p->name = ui_label("", "big");
-    p->facts = ui_label("", "dim");
+    p->facts = ui_paragraph("model-facts", "dim", 32);
     gtk_widget_set_name(p->name, "model-name");
-    gtk_widget_set_name(p->facts, "model-facts");
-    gtk_label_set_ellipsize(GTK_LABEL(p->name), PANGO_ELLIPSIZE_MIDDLE);
-    gtk_label_set_ellipsize(GTK_LABEL(p->facts), PANGO_ELLIPSIZE_END);
-    gtk_widget_set_hexpand(p->facts, TRUE);
     make_popovers(p);
     p->mtl =
         ui_button("Find MT_L…", "choose-mtl", "Take the optics of the materials from an MTL file");
     gtk_widget_set_name(p->mtl, "mtl");
-    gtk_box_append(GTK_BOX(first), ui_label("Spacecraft", "title-word"));
     gtk_box_append(GTK_BOX(first), p->name);
     gtk_box_append(GTK_BOX(first), p->facts);
     gtk_box_append(GTK_BOX(first), p->report);
     gtk_box_append(GTK_BOX(first), p->mtl);
     gtk_box_append(GTK_BOX(first), p->materials);
-    gtk_box_append(GTK_BOX(second), ui_label("", "title-word"));
-    make_fields(p, GTK_BOX(second));
     gtk_box_append(GTK_BOX(box), first);
-    gtk_box_append(GTK_BOX(box), second);
+    gtk_box_append(GTK_BOX(box), make_fields(p));
     gtk_widget_add_css_class(box, "pane");
     g_object_set_data_full(G_OBJECT(box), "pane", p, free_pane);
     viewer_listen(v, on_changed, p);

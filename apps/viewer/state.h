@@ -10,9 +10,4 @@ void viewer_state_load(viewer *v);
 /* Writes it; complains of nothing, since there is nothing to be done about it. */
 void viewer_state_save(viewer *v);
 
-/* Puts a file at the head of the recent ones. */
-void viewer_state_note_recent(viewer *v, const char *path);
-/* The recent files as a menu of "win.open"; it follows them. */
-GMenuModel *viewer_state_recent_menu(viewer *v);
-
 #endif

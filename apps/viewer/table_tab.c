@@ -141,7 +141,7 @@ static GtkWidget *step_button(pane *p, const char *name) {
 }
 
 static GtkWidget *make_strip(pane *p) {
-    GtkWidget *box = ui_box(GTK_ORIENTATION_HORIZONTAL, 8);
+    GtkWidget *box = ui_strip(8);
     GtkBox *strip = GTK_BOX(box);
     p->az_step = step_button(p, "az-step");
     p->el_step = step_button(p, "el-step");
@@ -155,21 +155,19 @@ static GtkWidget *make_strip(pane *p) {
     gtk_widget_set_size_request(p->progress, 150, -1);
     p->table = ui_choice("table", G_CALLBACK(on_choice), p);
     gtk_widget_set_hexpand(p->table, TRUE);
+    gtk_widget_set_size_request(p->table, 240, -1);
     p->reoptic = ui_button("_Re-optic", "reoptic",
                            "This table is of other optics than Materials has now: make one of "
                            "those from it, without tracing light again");
     gtk_widget_set_name(p->reoptic, "reoptic");
     p->together = gtk_check_button_new_with_mnemonic("Turn toget_her");
     g_signal_connect(p->together, "toggled", G_CALLBACK(on_together), p);
-    gtk_box_append(strip, ui_mnemonic("Step a_z [°]", p->az_step));
-    gtk_box_append(strip, p->az_step);
-    gtk_box_append(strip, ui_mnemonic("e_l [°]", p->el_step));
-    gtk_box_append(strip, p->el_step);
+    gtk_box_append(strip, ui_pair(ui_mnemonic("Step a_z [°]", p->az_step), p->az_step));
+    gtk_box_append(strip, ui_pair(ui_mnemonic("e_l [°]", p->el_step), p->el_step));
     gtk_box_append(strip, p->start);
     gtk_box_append(strip, p->cancel);
     gtk_box_append(strip, p->progress);
-    gtk_box_append(strip, ui_mnemonic("Ta_ble", p->table));
-    gtk_box_append(strip, p->table);
+    gtk_box_append(strip, ui_pair(ui_mnemonic("Ta_ble", p->table), p->table));
     gtk_box_append(strip, p->reoptic);
     gtk_box_append(strip, ui_button("O_pen…", "choose-table", "Open a table from disk"));
     gtk_box_append(strip,
@@ -215,9 +213,9 @@ GtkWidget *viewer_table_tab(viewer *v) {
     pane *p = g_new0(pane, 1);
     p->v = v;
     GtkWidget *box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
-    p->charts = viewer_charts_create(v, "chart", 2);
+    p->charts = viewer_charts_create(v, "chart");
     g_object_set_data(G_OBJECT(v->window), "table-charts", p->charts);
-    gtk_box_append(GTK_BOX(box), ui_strip(make_strip(p)));
+    gtk_box_append(GTK_BOX(box), make_strip(p));
     gtk_box_append(GTK_BOX(box), viewer_charts_widget(p->charts));
     g_object_set_data_full(G_OBJECT(box), "pane", p, free_pane);
     viewer_listen(v, on_changed, p);

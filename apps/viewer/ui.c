@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "ui.h"
 
+#include "wrap.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,6 +22,15 @@ GtkWidget *ui_label(const char *text, const char *classes) {
     GtkWidget *label = gtk_label_new(text);
     gtk_label_set_xalign(GTK_LABEL(label), 0.0f);
     add_classes(label, classes);
+    return label;
+}
+
+GtkWidget *ui_paragraph(const char *name, const char *classes, int width) {
+    GtkWidget *label = ui_label("", classes);
+    gtk_label_set_wrap(GTK_LABEL(label), TRUE);
+    gtk_label_set_width_chars(GTK_LABEL(label), width);
+    gtk_widget_set_hexpand(label, TRUE);
+    gtk_widget_set_name(label, name);
     return label;
 }
 
@@ -57,13 +68,48 @@ void ui_name(GtkWidget *widget, const char *words) {
                                    -1);
 }
 
-GtkWidget *ui_strip(GtkWidget *line) {
-    GtkWidget *strip = gtk_scrolled_window_new();
-    gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(strip), line);
-    gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(strip), GTK_POLICY_AUTOMATIC,
-                                   GTK_POLICY_NEVER);
-    gtk_scrolled_window_set_propagate_natural_width(GTK_SCROLLED_WINDOW(strip), TRUE);
+GtkWidget *ui_strip(int spacing) {
+    GtkWidget *strip = ui_box(GTK_ORIENTATION_HORIZONTAL, spacing);
+    gtk_widget_set_layout_manager(strip, viewer_wrap_new(spacing, false));
     return strip;
+}
+
+GtkWidget *ui_titled_strip(GtkWidget *title) {
+    const int spacing = 10;
+    GtkWidget *strip = ui_box(GTK_ORIENTATION_HORIZONTAL, spacing);
+    gtk_widget_set_layout_manager(strip, viewer_wrap_new(spacing, true));
+    gtk_widget_add_css_class(title, "title-word");
+    gtk_box_append(GTK_BOX(strip), title);
+    return strip;
+}
+
+GtkWidget *ui_pair(GtkWidget *word, GtkWidget *control) {
+    GtkWidget *pair = ui_box(GTK_ORIENTATION_HORIZONTAL, 6);
+    gtk_box_append(GTK_BOX(pair), word);
+    gtk_box_append(GTK_BOX(pair), control);
+    return pair;
+}
+
+GtkWidget *ui_side(GtkWidget *column) {
+    GtkWidget *side = gtk_scrolled_window_new();
+    gtk_widget_add_css_class(column, "side");
+    gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(side), column);
+    gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(side), GTK_POLICY_NEVER,
+                                   GTK_POLICY_AUTOMATIC);
+    gtk_widget_set_hexpand(side, FALSE);
+    return side;
+}
+
+GtkWidget *ui_popover(GtkWidget *child, int height) {
+    GtkWidget *popover = gtk_popover_new(), *scrolled = gtk_scrolled_window_new();
+    gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scrolled), GTK_POLICY_NEVER,
+                                   GTK_POLICY_AUTOMATIC);
+    gtk_scrolled_window_set_propagate_natural_height(GTK_SCROLLED_WINDOW(scrolled), TRUE);
+    gtk_scrolled_window_set_propagate_natural_width(GTK_SCROLLED_WINDOW(scrolled), TRUE);
+    gtk_scrolled_window_set_max_content_height(GTK_SCROLLED_WINDOW(scrolled), height);
+    gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scrolled), child);
+    gtk_popover_set_child(GTK_POPOVER(popover), scrolled);
+    return popover;
 }
 
 GtkWidget *ui_explanation(const char *heading, const char *text) {

@@ -10,6 +10,8 @@
 GtkWidget *ui_box(GtkOrientation orientation, int spacing);
 /* Text; `classes`: style classes separated by blanks, may be NULL. */
 GtkWidget *ui_label(const char *text, const char *classes);
+/* Text that goes on in further lines, none of them less than `width` characters wide. */
+GtkWidget *ui_paragraph(const char *name, const char *classes, int width);
 /* A number that is shown: equal widths, can be selected and copied. */
 GtkWidget *ui_value(const char *name);
 /* "_Label" that moves the focus to `target` (may be set later with
@@ -19,8 +21,16 @@ GtkWidget *ui_mnemonic(const char *text, GtkWidget *target);
 GtkWidget *ui_button(const char *text, const char *action, const char *tip);
 /* What a screen reader calls a widget that no words beside it name. */
 void ui_name(GtkWidget *widget, const char *words);
-/* A line of controls, which scrolls where the window is too narrow for it. */
-GtkWidget *ui_strip(GtkWidget *line);
+/* A box whose children go on in further lines where the window is too narrow for them. */
+GtkWidget *ui_strip(int spacing);
+/* The same behind a title, in bold; further lines begin where the first does behind it. */
+GtkWidget *ui_titled_strip(GtkWidget *title);
+/* A control behind its word, which stay together. */
+GtkWidget *ui_pair(GtkWidget *word, GtkWidget *control);
+/* A column beside a picture, which scrolls where the window is too low for it. */
+GtkWidget *ui_side(GtkWidget *column);
+/* What a button shows, which scrolls where it is higher than `height`. */
+GtkWidget *ui_popover(GtkWidget *child, int height);
 /* A small "i" that explains. */
 GtkWidget *ui_explanation(const char *heading, const char *text);
 /* An entry `width` characters wide that sends its text to `action` as "KEY=text" (key NULL: the

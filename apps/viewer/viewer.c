@@ -24,17 +24,16 @@ void viewer_tell(viewer *v, unsigned what) {
     }
 }
 
-static void set_message(viewer *v, const char *text, bool is_problem) {
-    if (strcmp(v->message, text) != 0 || v->message_is_problem != is_problem) {
-        g_strlcpy(v->message, text, sizeof v->message);
-        v->message_is_problem = is_problem;
-        viewer_tell(v, CHANGED_MESSAGE);
-    }
-    v->message_is_of_model = false;
+/* The same complaint twice is told twice: it is of two things that went wrong. */
+static void set_message(viewer *v, const char *text, bool is_problem, bool is_of_model) {
+    g_strlcpy(v->message, text, sizeof v->message);
+    v->message_is_problem = is_problem;
+    v->message_is_of_model = is_of_model;
+    viewer_tell(v, CHANGED_MESSAGE);
 }
 
 void viewer_say(viewer *v, const char *text) {
-    set_message(v, text, false);
+    set_message(v, text, false, false);
 }
 
 void viewer_forget_news(viewer *v) {
@@ -43,25 +42,21 @@ void viewer_forget_news(viewer *v) {
     }
 }
 
-void viewer_complain(viewer *v, const char *text) {
+static void complain(viewer *v, const char *text, bool is_of_model) {
     char words[VIEWER_WORDS_SIZE];
     viewer_words_for_window(text, words, sizeof words);
     if (words[0] != '\0' || v->message_is_problem) {
-        set_message(v, words, words[0] != '\0');
-    }
-    /* Nobody sees the window of a script. */
-    if (words[0] != '\0' && v->scripted) {
-        g_printerr("srp-viewer: %s\n", words);
-        v->exit_status = v->strict ? 1 : v->exit_status;
+        set_message(v, words, words[0] != '\0', is_of_model);
     }
 }
 
+void viewer_complain(viewer *v, const char *text) {
+    complain(v, text, false);
+}
+
 void viewer_complain_of_model(viewer *v, const char *text) {
-    if (text[0] != '\0') {
-        viewer_complain(v, text);
-        v->message_is_of_model = true;
-    } else if (v->message_is_of_model) {
-        viewer_complain(v, "");
+    if (text[0] != '\0' || v->message_is_of_model) {
+        complain(v, text, text[0] != '\0');
     }
 }
 
@@ -80,6 +75,10 @@ void viewer_set_chart_view(viewer *v, int chart, double az_deg, double el_deg) {
         }
     }
     viewer_tell(v, CHANGED_VIEW);
+}
+
+bool viewer_is_window_size(int width, int height) {
+    return MIN(width, height) >= WINDOW_SIZE_MIN && MAX(width, height) <= WINDOW_SIZE_MAX;
 }
 
 void viewer_act(viewer *v, const char *action, GVariant *parameter) {

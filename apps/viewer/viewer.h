@@ -60,6 +60,7 @@ struct viewer {
     double chart_view[VIEWER_CHARTS]
                      [2]; /* azimuth and elevation of the eye of each surface [deg] */
     bool charts_together;
+    int plates_to_fit;
     double az_step_deg, el_step_deg;
     /* What there is to say. */
     char message[VIEWER_WORDS_SIZE];
@@ -69,8 +70,6 @@ struct viewer {
     double asked_at;          /* when the newest force was asked for, NAN: shown already */
     GPtrArray *listeners;
     int exit_status;
-    bool strict; /* a complaint is a failure: there is a picture to make, and no script that expects
-                  */
     bool scripted;  /* the window closes when the script is at its end */
     bool remembers; /* what is remembered is read at the start and written at the end */
 };
@@ -95,6 +94,10 @@ void viewer_set_camera(viewer *v, double az_deg, double el_deg, double zoom);
 
 /* Turns a surface, or all of them while they turn together; the elevation is kept from 0 to 90. */
 void viewer_set_chart_view(viewer *v, int chart, double az_deg, double el_deg);
+
+/* A size that a window can have: MIN to MAX pixels each way. */
+enum { WINDOW_SIZE_MIN = 100, WINDOW_SIZE_MAX = 20000 };
+bool viewer_is_window_size(int width, int height);
 
 /* Activates an action, "turn-x", as a widget does; `parameter` may be NULL. */
 void viewer_act(viewer *v, const char *action, GVariant *parameter);

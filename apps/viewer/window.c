@@ -2,6 +2,7 @@
 /* The window: header, spacecraft, method, tabs, and a line for what there is to say. */
 #include "actions.h"
 #include "opening.h"
+#include "recent.h"
 #include "state.h"
 #include "style.h"
 #include "ui.h"
@@ -9,7 +10,7 @@
 
 typedef struct frame {
     viewer *v;
-    GtkWidget *message, *bar, *busy;
+    GtkWidget *message, *bar, *more, *whole, *busy;
 } frame;
 
 /* ---- header ---- */
@@ -50,7 +51,7 @@ static GtkWidget *make_header(frame *f) {
                               ui_button("_Open…", "choose-model", "Open an OBJ file (Ctrl+O)"));
     gtk_header_bar_pack_start(
         GTK_HEADER_BAR(header),
-        menu_button("_Recent", viewer_state_recent_menu(f->v), "Files that were open before"));
+        menu_button("_Recent", viewer_recent_menu(f->v), "Files that were open before"));
     GtkWidget *button = menu_button("Menu", menu, "Save, copy, style (F10)");
     gtk_menu_button_set_primary(GTK_MENU_BUTTON(button), TRUE);
     gtk_header_bar_pack_end(GTK_HEADER_BAR(header), button);
@@ -61,9 +62,9 @@ static GtkWidget *make_header(frame *f) {
 
 /* ---- message ---- */
 
-enum { MESSAGE_LINES = 4 };
+enum { MESSAGE_LINES = 2 };
 
-/* So many lines that there is still room for the rest; all of them are in the tip. */
+/* So many lines that there is still room for the rest; all of them are behind "More". */
 static void show_message(frame *f) {
     const char *end = f->v->message;
     for (int lines = 0; *end != '\0' && (*end != '\n' || ++lines < MESSAGE_LINES); ++end) {
@@ -71,7 +72,8 @@ static void show_message(frame *f) {
     char *head = g_strndup(f->v->message, (gsize)(end - f->v->message));
     char *text = g_strconcat(head, *end != '\0' ? " …" : "", NULL);
     gtk_label_set_text(GTK_LABEL(f->message), text);
-    gtk_widget_set_tooltip_text(f->message, *end != '\0' ? f->v->message : NULL);
+    gtk_label_set_text(GTK_LABEL(f->whole), f->v->message);
+    gtk_widget_set_visible(f->more, *end != '\0');
     gtk_widget_set_visible(f->bar, f->v->message[0] != '\0');
     g_free(text);
     g_free(head);
@@ -82,16 +84,25 @@ static void on_dismiss(GtkButton *button, gpointer user) {
     viewer_say(((frame *)user)->v, "");
 }
 
+static GtkWidget *message_label(const char *name) {
+    GtkWidget *label = ui_paragraph(name, NULL, -1);
+    gtk_label_set_wrap_mode(GTK_LABEL(label), PANGO_WRAP_WORD_CHAR);
+    gtk_label_set_selectable(GTK_LABEL(label), TRUE);
+    gtk_widget_set_can_focus(label, FALSE);
+    return label;
+}
+
 static GtkWidget *make_message(frame *f) {
     GtkWidget *box = ui_box(GTK_ORIENTATION_HORIZONTAL, 8);
     GtkWidget *dismiss = gtk_button_new_with_label("×");
-    f->message = ui_label("", NULL);
-    gtk_widget_set_name(f->message, "message");
-    gtk_label_set_wrap(GTK_LABEL(f->message), TRUE);
-    gtk_label_set_wrap_mode(GTK_LABEL(f->message), PANGO_WRAP_WORD_CHAR);
-    gtk_label_set_selectable(GTK_LABEL(f->message), TRUE);
-    gtk_widget_set_can_focus(f->message, FALSE);
-    gtk_widget_set_hexpand(f->message, TRUE);
+    f->message = message_label("message");
+    f->whole = message_label("whole-message");
+    gtk_label_set_max_width_chars(GTK_LABEL(f->whole), 90);
+    f->more = gtk_menu_button_new();
+    gtk_menu_button_set_label(GTK_MENU_BUTTON(f->more), "More");
+    gtk_menu_button_set_popover(GTK_MENU_BUTTON(f->more), ui_popover(f->whole, 420));
+    gtk_widget_set_name(f->more, "more-message");
+    ui_name(f->more, "The whole message");
     gtk_button_set_has_frame(GTK_BUTTON(dismiss), FALSE);
     gtk_widget_set_tooltip_text(dismiss, "Dismiss");
     ui_name(dismiss, "Dismiss");
@@ -101,7 +112,10 @@ static GtkWidget *make_message(frame *f) {
     /* A column has no baseline; with that of the button GTK miscounts the height of several lines.
      */
     GtkWidget *column = ui_box(GTK_ORIENTATION_VERTICAL, 0);
-    gtk_box_append(GTK_BOX(column), dismiss);
+    GtkWidget *buttons = ui_box(GTK_ORIENTATION_HORIZONTAL, 8);
+    gtk_box_append(GTK_BOX(buttons), f->more);
+    gtk_box_append(GTK_BOX(buttons), dismiss);
+    gtk_box_append(GTK_BOX(column), buttons);
     gtk_box_append(GTK_BOX(box), column);
     gtk_widget_add_css_class(box, "message");
     gtk_widget_set_visible(box, FALSE);

@@ -106,12 +106,14 @@ static srp_status go(runner *run, srp_error *error) {
     return status;
 }
 
-/* Exchanges nodes with the cache. What goes wrong is said when the mission is destroyed, which
+/* Gives what is new to the cache. What goes wrong is said when the mission is destroyed, which
  * tries again. */
 static void share_nodes(const srp_mission *mission) {
     srp_error why;
-    srp_status status = mission->demand != NULL ? srp_demand_flush(mission->demand, &why) : SRP_OK;
-    (void)status;
+    if (mission->demand != NULL && srp_demand_count(mission->demand).computed > 0) {
+        srp_status status = srp_demand_flush(mission->demand, &why);
+        (void)status;
+    }
 }
 
 static void sum_up(const runner *run, srp_mission_summary *sum) {

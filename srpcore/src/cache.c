@@ -31,6 +31,7 @@ srp_cache_params srp_cache_params_default(void) {
         .size_max = (uint64_t)1 << 30,
         .flush_nodes = 4096,
         .flush_seconds = 10.0,
+        .flush_share = 0.05,
         .wait_seconds = 10.0,
     };
     return params;
@@ -58,11 +59,12 @@ static srp_status choose_directory(const char *given, char **out, srp_error *err
 srp_status srp_cache_open(const srp_cache_params *params, const srp_log *log, srp_cache **out,
                           srp_error *error) {
     if (params->flush_nodes < 1 || !(params->flush_seconds >= 0.0) ||
-        !(params->wait_seconds >= 0.0)) {
+        !(params->flush_share >= 0.0) || !(params->wait_seconds >= 0.0)) {
         return srp_fail(error, SRP_BAD_ARGUMENT,
-                        "a cache written after %zu nodes or %g s, waited for %g s: expected at "
-                        "least 1, 0, 0",
-                        params->flush_nodes, params->flush_seconds, params->wait_seconds);
+                        "a cache written after %zu nodes or %g s, for a share of %g of the time, "
+                        "waited for %g s: expected at least 1, 0, 0, 0",
+                        params->flush_nodes, params->flush_seconds, params->flush_share,
+                        params->wait_seconds);
     }
     char *directory;
     srp_status status = choose_directory(params->directory, &directory, error);

@@ -31,7 +31,8 @@ struct srp_demand {
     srp_table *table;
     srp_demand_counts counts;
     size_t unsaved;    /* nodes that the cache may lack */
-    double saved;      /* when it was last written */
+    double saved;      /* when it was last written [s] */
+    double cost;       /* how long that took [s] */
     bool is_saving;    /* by some thread */
     bool cache_failed; /* and that was said */
 };
@@ -74,9 +75,11 @@ static srp_status exchange(srp_demand *demand, bool wait, srp_error *error) {
     /* Whoever knows nothing yet takes what can be read of a cache that cannot be written. */
     const bool looks = srp_demand_count(demand).ready == 0;
     srp_cache_job job = {demand->prepared, demand->table->grid, false, wait, looks, join, demand};
+    double began = srp_platform_seconds();
     srp_status status = srp_cache_run(demand->cache, &job, error);
     srp_platform_monitor_enter(demand->monitor);
     demand->saved = srp_platform_seconds();
+    demand->cost = demand->saved - began;
     if (status == SRP_OK) {
         demand->cache_failed = false;
     } else {
@@ -236,8 +239,10 @@ static void save_if_due(srp_demand *demand) {
     srp_platform_monitor_enter(demand->monitor);
     /* After a failure not with every batch: the cache may be gone for long. */
     bool many = demand->unsaved >= params->flush_nodes && !demand->cache_failed;
+    double since = srp_platform_seconds() - demand->saved;
     bool due = !demand->is_saving && demand->unsaved > 0 &&
-               (many || srp_platform_seconds() - demand->saved >= params->flush_seconds);
+               (many || since >= params->flush_seconds) &&
+               demand->cost <= params->flush_share * since;
     demand->is_saving = demand->is_saving || due;
     srp_platform_monitor_leave(demand->monitor);
     if (due) {

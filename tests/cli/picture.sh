@@ -133,6 +133,7 @@ if [ -w /dev/full ]; then
     ln -s /dev/full full.png.part
     expect 3 picture "$MODELS/cube.obj" --az 1 --el 1 -o full.png
     says 'full.png: cannot write'
+    says 'No space left on device'
     [ ! -e full.png ] || fail 'half a picture is there'
 fi
 

@@ -2,6 +2,7 @@
 /* Tables that fill themselves by OpenGL: the bits of the table that it fills at once. */
 #include "gl_fixture.h"
 #include "model_files.h"
+#include "prepared.h"
 #include "srp_check.h"
 
 #include <srp/demand.h>
@@ -13,15 +14,12 @@ static const srp_grid GRID = {25, 13};
 
 static srp_prepared *prepare(const char *method, const srp_scene *scene) {
     srp_method_params params = srp_method_params_default();
-    srp_prepared *prepared = NULL;
-    srp_error error;
     params.threads = 2;
     params.lattice.samples = 64;
     params.reflections = 1;
     params.diffuse = 1;
     params.reference = srp_vec3_make(0.31, -0.27, 0.64);
-    assert_ok(srp_method_prepare(gl_method(method), scene, &params, &prepared, &error), error);
-    return prepared;
+    return prepare_with(gl_method(method), scene, &params);
 }
 
 static void compare_nodes(const srp_table *table, const srp_demand *demand) {

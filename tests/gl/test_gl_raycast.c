@@ -2,6 +2,7 @@
 /* First hits drawn by OpenGL, against the processor's. */
 #include "gl_fixture.h"
 #include "model_files.h"
+#include "prepared.h"
 #include "raster_canvas.h"
 #include "raycast.h"
 #include "raycast_answer.h"
@@ -16,20 +17,6 @@
 
 /* Vertices are moved to 1/512 of a cell, and by less in float. */
 static const double SNAP = 1.0 / 256.0;
-
-static srp_prepared *prepare(const srp_method *method, const srp_scene *scene,
-                             const srp_method_params *params) {
-    srp_error error;
-    srp_prepared *prepared = NULL;
-    assert_ok(srp_method_prepare(method, scene, params, &prepared, &error), error);
-    return prepared;
-}
-
-static void respond(const srp_prepared *prepared, size_t count, const srp_vec3 *s,
-                    srp_response *responses) {
-    srp_error error;
-    assert_ok(srp_prepared_respond(prepared, count, s, responses, NULL, &error), error);
-}
 
 static srp_method_params params_of(uint32_t samples) {
     srp_method_params params = srp_method_params_default();
@@ -196,7 +183,7 @@ static tally compare_model(const char *name, uint32_t samples, int step) {
     model_file model = model_read(name);
     srp_scene *scene = model_scene(&model);
     srp_method_params params = params_of(samples);
-    srp_prepared *prepared = prepare(gl_method("raycast"), scene, &params);
+    srp_prepared *prepared = prepare_with(gl_method("raycast"), scene, &params);
     picture got = {calloc((size_t)samples * samples, sizeof *got.facet), 0, 0};
     ck_assert_ptr_nonnull(got.facet);
     srp_gl_raycast_watch(prepared, watch_rows, &got);
@@ -205,7 +192,7 @@ static tally compare_model(const char *name, uint32_t samples, int step) {
     tally sum = {0, 0, 0, 0, 0.0, 0.0};
     for (int k = 0; k < PAPER_DIRECTIONS; k += step) {
         srp_response response;
-        respond(prepared, 1, &s[k], &response);
+        respond_each(prepared, 1, &s[k], &response);
         oracle_draw(&o, prepared, s[k]);
         compare(&o, &got, &sum);
     }
@@ -248,10 +235,10 @@ END_TEST
 static double force_difference(const srp_scene *scene, const srp_method_params *params,
                                size_t count, const srp_vec3 *s, double *largest) {
     srp_response cpu[PAPER_DIRECTIONS], gl[PAPER_DIRECTIONS];
-    srp_prepared *want = prepare(&srp_method_raycast, scene, params);
-    srp_prepared *got = prepare(gl_method("raycast"), scene, params);
-    respond(want, count, s, cpu);
-    respond(got, count, s, gl);
+    srp_prepared *want = prepare_with(&srp_method_raycast, scene, params);
+    srp_prepared *got = prepare_with(gl_method("raycast"), scene, params);
+    respond_each(want, count, s, cpu);
+    respond_each(got, count, s, gl);
     srp_prepared_release(want);
     srp_prepared_release(got);
     double sum = 0.0, most = 0.0;
@@ -318,17 +305,17 @@ START_TEST(cube_error_falls_up_to_4096) {
     srp_scene *scene = model_scene_painted(&model, (srp_optics){0.5, 0.1, false});
     srp_response exact[PAPER_DIRECTIONS], gl[PAPER_DIRECTIONS];
     srp_method_params params = params_of(512);
-    srp_prepared *truth = prepare(&srp_method_exact, scene, &params);
-    respond(truth, PAPER_DIRECTIONS, s, exact);
+    srp_prepared *truth = prepare_with(&srp_method_exact, scene, &params);
+    respond_each(truth, PAPER_DIRECTIONS, s, exact);
     srp_prepared_release(truth);
     double before = INFINITY;
     for (uint32_t side = 256; side <= 4096; side *= 4) {
         params = params_of(side);
-        srp_prepared *prepared = prepare(gl_method("raycast"), scene, &params);
+        srp_prepared *prepared = prepare_with(gl_method("raycast"), scene, &params);
         double error = 0.0;
         /* Every ninth direction: of those alike, one. */
         for (int k = 0; k < PAPER_DIRECTIONS; k += 9) {
-            respond(prepared, 1, &s[k], &gl[k]);
+            respond_each(prepared, 1, &s[k], &gl[k]);
             error += srp_vec3_norm(srp_vec3_sub(gl[k].f, exact[k].f)) / 18.0;
         }
         srp_prepared_release(prepared);
@@ -405,10 +392,10 @@ START_TEST(long_boxes_are_seen_end_on) {
         for (size_t m = 0; m < 3; ++m) {
             srp_method_params params = params_of(SIDES[m]);
             srp_response cpu, gl;
-            srp_prepared *want = prepare(&srp_method_raycast, scene, &params);
-            srp_prepared *got = prepare(gl_method("raycast"), scene, &params);
-            respond(want, 1, &s, &cpu);
-            respond(got, 1, &s, &gl);
+            srp_prepared *want = prepare_with(&srp_method_raycast, scene, &params);
+            srp_prepared *got = prepare_with(gl_method("raycast"), scene, &params);
+            respond_each(want, 1, &s, &cpu);
+            respond_each(got, 1, &s, &gl);
             ck_assert_double_le(srp_vec3_norm(srp_vec3_sub(gl.f, cpu.f)), cpu.f_error);
             ck_assert_double_le(srp_vec3_norm(srp_vec3_sub(gl.t, cpu.t)), cpu.t_error);
             srp_prepared_release(want);
@@ -425,7 +412,7 @@ START_TEST(grazed_facets_act_within_their_corners) {
     srp_vec3 s = srp_direction_from_deg(30.0, 10.0);
     srp_scene *scene = long_box(SRP_PI / 6.0, SRP_PI / 18.0, 20.0);
     srp_method_params params = params_of(64);
-    srp_prepared *prepared = prepare(&srp_method_raycast, scene, &params);
+    srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
     double *lever2 = srp_raycast_measure_levers(scene, params.reference);
     ck_assert_ptr_nonnull(lever2);
     oracle o;
@@ -474,13 +461,13 @@ START_TEST(of_coincident_faces_the_one_turned_to_the_sun_is_seen) {
     shape_join(mesh, shape_mesh(large, 4, down, 2, "large"));
     srp_scene *scene = shape_scene(mesh, (srp_optics){0.2, 0.3, true});
     srp_method_params params = params_of(300);
-    srp_prepared *prepared = prepare(gl_method("raycast"), scene, &params);
+    srp_prepared *prepared = prepare_with(gl_method("raycast"), scene, &params);
     uint64_t seed = 6;
     for (int k = 0; k < 20; ++k) {
         srp_vec3 s = random_direction(&seed);
         srp_response response;
         s.z = fabs(s.z);
-        respond(prepared, 1, &s, &response);
+        respond_each(prepared, 1, &s, &response);
         assert_close(response.lit_area - response.back_area, area * s.z, 0.01, 0.0);
     }
     srp_prepared_release(prepared);
@@ -499,9 +486,9 @@ START_TEST(answers_depend_on_the_direction_alone) {
     srp_scene *scene = model_scene(&model);
     size_t row = srp_scene_material_count(scene) + 1;
     srp_method_params params = params_of(96);
-    srp_prepared *one = prepare(gl_method("raycast"), scene, &params);
+    srp_prepared *one = prepare_with(gl_method("raycast"), scene, &params);
     params.threads = 3;
-    srp_prepared *many = prepare(gl_method("raycast"), scene, &params);
+    srp_prepared *many = prepare_with(gl_method("raycast"), scene, &params);
     srp_response all[COUNT], single;
     srp_basis *basis = calloc(COUNT * row, sizeof *basis), *alone = calloc(row, sizeof *alone);
     srp_error error;
@@ -525,14 +512,14 @@ START_TEST(tolerance_refines) {
     srp_scene *scene = model_scene(&model);
     srp_method_params params = params_of(32);
     params.tolerance = 2e-3;
-    srp_prepared *prepared = prepare(gl_method("raycast"), scene, &params);
+    srp_prepared *prepared = prepare_with(gl_method("raycast"), scene, &params);
     uint64_t seed = 8;
     srp_vec3 s[5];
     srp_response responses[5];
     for (int k = 0; k < 5; ++k) {
         s[k] = random_direction(&seed);
     }
-    respond(prepared, 5, s, responses);
+    respond_each(prepared, 5, s, responses);
     for (int k = 0; k < 5; ++k) {
         ck_assert_double_le(responses[k].f_error, 2e-3 * srp_vec3_norm(responses[k].f));
         ck_assert_uint_gt(responses[k].samples, 2 * 32 * 32);
@@ -540,8 +527,8 @@ START_TEST(tolerance_refines) {
     srp_prepared_release(prepared);
     params.max_samples = 64;
     params.tolerance = 1e-7;
-    prepared = prepare(gl_method("raycast"), scene, &params);
-    respond(prepared, 5, s, responses);
+    prepared = prepare_with(gl_method("raycast"), scene, &params);
+    respond_each(prepared, 5, s, responses);
     for (int k = 0; k < 5; ++k) {
         ck_assert_uint_ne(responses[k].flags & SRP_RESPONSE_TOLERANCE_MISSED, 0);
     }
@@ -571,10 +558,10 @@ START_TEST(providers_agree) {
     model_file model = model_read("box-wing");
     srp_scene *scene = model_scene(&model);
     srp_method_params params = params_of(200);
-    srp_prepared *first = prepare(gl_method("raycast"), scene, &params);
-    srp_prepared *second = prepare(gl_method_on(other, "raycast"), scene, &params);
-    respond(first, PAPER_DIRECTIONS, s, a);
-    respond(second, PAPER_DIRECTIONS, s, b);
+    srp_prepared *first = prepare_with(gl_method("raycast"), scene, &params);
+    srp_prepared *second = prepare_with(gl_method_on(other, "raycast"), scene, &params);
+    respond_each(first, PAPER_DIRECTIONS, s, a);
+    respond_each(second, PAPER_DIRECTIONS, s, b);
     ck_assert_mem_eq(a, b, sizeof a);
     srp_prepared_release(first);
     srp_prepared_release(second);
@@ -587,7 +574,7 @@ START_TEST(a_table_is_filled) {
     model_file model = model_read("cube");
     srp_scene *scene = model_scene(&model);
     srp_method_params params = params_of(64);
-    srp_prepared *prepared = prepare(gl_method("raycast"), scene, &params);
+    srp_prepared *prepared = prepare_with(gl_method("raycast"), scene, &params);
     srp_grid grid;
     srp_table *table = NULL;
     srp_error error;

@@ -2,6 +2,7 @@
 /* Reflected light traced by OpenGL, against the processor's. */
 #include "gl_fixture.h"
 #include "model_files.h"
+#include "prepared.h"
 #include "raytrace_world.h"
 #include "seed.h"
 #include "shapes.h"
@@ -11,20 +12,6 @@
 #include <srp/table.h>
 
 #include <string.h>
-
-static srp_prepared *prepare(const srp_method *method, const srp_scene *scene,
-                             const srp_method_params *params) {
-    srp_error error;
-    srp_prepared *prepared = NULL;
-    assert_ok(srp_method_prepare(method, scene, params, &prepared, &error), error);
-    return prepared;
-}
-
-static void respond(const srp_prepared *prepared, size_t count, const srp_vec3 *s,
-                    srp_response *responses) {
-    srp_error error;
-    assert_ok(srp_prepared_respond(prepared, count, s, responses, NULL, &error), error);
-}
 
 static srp_method_params params_of(uint32_t samples, uint32_t diffuse, uint32_t reflections) {
     srp_method_params params = srp_method_params_default();
@@ -56,10 +43,10 @@ static void compare_scene(const char *name, const srp_scene *scene,
     srp_vec3 s[DIRECTIONS];
     srp_response cpu[DIRECTIONS], gl[DIRECTIONS];
     some_directions(s, 11);
-    srp_prepared *want = prepare(&srp_method_raytrace, scene, params);
-    srp_prepared *got = prepare(gl_method("raytrace"), scene, params);
-    respond(want, DIRECTIONS, s, cpu);
-    respond(got, DIRECTIONS, s, gl);
+    srp_prepared *want = prepare_with(&srp_method_raytrace, scene, params);
+    srp_prepared *got = prepare_with(gl_method("raytrace"), scene, params);
+    respond_each(want, DIRECTIONS, s, cpu);
+    respond_each(got, DIRECTIONS, s, gl);
     double mean = 0.0, worst = 0.0, worst_t = 0.0;
     for (int k = 0; k < DIRECTIONS; ++k) {
         mean +=
@@ -149,10 +136,10 @@ START_TEST(mirrored_beams_are_exact) {
     srp_vec3 s[DIRECTIONS];
     srp_response cpu[DIRECTIONS], gl[DIRECTIONS];
     some_directions(s, 14);
-    srp_prepared *want = prepare(&srp_method_raytrace, scene, &params);
-    srp_prepared *got = prepare(gl_method("raytrace"), scene, &params);
-    respond(want, DIRECTIONS, s, cpu);
-    respond(got, DIRECTIONS, s, gl);
+    srp_prepared *want = prepare_with(&srp_method_raytrace, scene, &params);
+    srp_prepared *got = prepare_with(gl_method("raytrace"), scene, &params);
+    respond_each(want, DIRECTIONS, s, cpu);
+    respond_each(got, DIRECTIONS, s, gl);
     ck_assert_mem_eq(cpu, gl, sizeof cpu);
     srp_prepared_release(want);
     srp_prepared_release(got);
@@ -170,10 +157,10 @@ START_TEST(convex_bodies_are_exact) {
     srp_vec3 s[DIRECTIONS];
     srp_response exact[DIRECTIONS], gl[DIRECTIONS];
     some_directions(s, 12);
-    srp_prepared *want = prepare(&srp_method_exact, scene, &params);
-    srp_prepared *got = prepare(gl_method("raytrace"), scene, &params);
-    respond(want, DIRECTIONS, s, exact);
-    respond(got, DIRECTIONS, s, gl);
+    srp_prepared *want = prepare_with(&srp_method_exact, scene, &params);
+    srp_prepared *got = prepare_with(gl_method("raytrace"), scene, &params);
+    respond_each(want, DIRECTIONS, s, exact);
+    respond_each(got, DIRECTIONS, s, gl);
     for (int k = 0; k < DIRECTIONS; ++k) {
         ck_assert_mem_eq(&gl[k].f, &exact[k].f, sizeof gl[k].f);
         ck_assert_double_eq(gl[k].f_error, 0.0);
@@ -192,13 +179,13 @@ START_TEST(runs_are_alike_to_the_bit) {
     srp_vec3 s[DIRECTIONS];
     srp_response first[DIRECTIONS], second[DIRECTIONS];
     some_directions(s, 13);
-    srp_prepared *prepared = prepare(gl_method("raytrace"), scene, &params);
-    respond(prepared, DIRECTIONS, s, first);
+    srp_prepared *prepared = prepare_with(gl_method("raytrace"), scene, &params);
+    respond_each(prepared, DIRECTIONS, s, first);
     srp_prepared_release(prepared);
     params.threads = 1;
-    prepared = prepare(gl_method("raytrace"), scene, &params);
+    prepared = prepare_with(gl_method("raytrace"), scene, &params);
     for (int k = 0; k < DIRECTIONS; ++k) {
-        respond(prepared, 1, &s[k], &second[k]);
+        respond_each(prepared, 1, &s[k], &second[k]);
     }
     ck_assert_mem_eq(first, second, sizeof first);
     srp_prepared_release(prepared);
@@ -213,13 +200,13 @@ START_TEST(seeds_and_tolerance_count) {
     srp_method_params params = params_of(16, 2, 2);
     srp_vec3 s = srp_direction_from_deg(51.0, 23.0);
     srp_response a, b;
-    srp_prepared *prepared = prepare(gl_method("raytrace"), scene, &params);
-    respond(prepared, 1, &s, &a);
+    srp_prepared *prepared = prepare_with(gl_method("raytrace"), scene, &params);
+    respond_each(prepared, 1, &s, &a);
     srp_prepared_release(prepared);
     params.seed = 77;
     params.tolerance = 1e-3;
-    prepared = prepare(gl_method("raytrace"), scene, &params);
-    respond(prepared, 1, &s, &b);
+    prepared = prepare_with(gl_method("raytrace"), scene, &params);
+    respond_each(prepared, 1, &s, &b);
     srp_prepared_release(prepared);
     ck_assert_double_gt(a.f_error, 1e-3 * srp_vec3_norm(a.f));
     ck_assert_double_le(b.f_error, 1e-3 * srp_vec3_norm(b.f));

@@ -4,6 +4,7 @@
 #include "context.h"
 #include "gl_fixture.h"
 #include "model_files.h"
+#include "prepared.h"
 #include "shapes.h"
 #include "srp_check.h"
 

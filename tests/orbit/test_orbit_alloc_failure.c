@@ -1,63 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Every constructor of the propagator meets the end of memory at each of its allocations in turn:
- * it answers SRP_NO_MEMORY, leaves its out parameter alone and gives back all that it took. As
- * tests/unit/test_alloc_failure.c, by the linker's --wrap.
+ * it answers SRP_NO_MEMORY, leaves its out parameter alone and gives back all that it took.
  */
+#include "failing_alloc.h"
 #include "orbit_fixture.h"
 
 #include <srp/orbit/mission.h>
 
 #include <gsl/gsl_errno.h>
 #include <stdio.h>
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__real_aligned_alloc(size_t boundary, size_t size);
-void __real_free(void *old);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-void *__wrap_aligned_alloc(size_t boundary, size_t size);
-void __wrap_free(void *old);
-
-static long until_failure, held;
-static bool armed;
-
-static bool fails(void) {
-    return armed && until_failure-- == 0;
-}
-
-static void *taken(void *block) {
-    held += block != NULL;
-    return block;
-}
-
-void *__wrap_malloc(size_t size) {
-    return fails() ? NULL : taken(__real_malloc(size));
-}
-
-void *__wrap_calloc(size_t count, size_t size) {
-    return fails() ? NULL : taken(__real_calloc(count, size));
-}
-
-void *__wrap_realloc(void *old, size_t size) {
-    if (fails()) {
-        return NULL;
-    }
-    void *block = __real_realloc(old, size);
-    return old == NULL ? taken(block) : block;
-}
-
-void *__wrap_aligned_alloc(size_t boundary, size_t size) {
-    return fails() ? NULL : taken(__real_aligned_alloc(boundary, size));
-}
-
-void __wrap_free(void *old) {
-    held -= old != NULL;
-    __real_free(old);
-}
 
 static srp_ephemeris *sky;
 static srp_force_list *list;
@@ -222,27 +174,15 @@ static const struct {
 #endif
 };
 
+static srp_status run_try(void *user, srp_error *error) {
+    const int *which = user;
+    return TRIES[*which].try(error);
+}
+
 START_TEST(the_end_of_memory_is_survived) {
     srp_error error;
-    armed = false;
     ck_assert_int_eq(TRIES[_i].try(&error), SRP_OK); /* whatever is kept for later is there now */
-    long failures = 0;
-    for (long n = 0;; ++n) {
-        const long before = held;
-        until_failure = n;
-        armed = true;
-        const srp_status status = TRIES[_i].try(&error);
-        armed = false;
-        ck_assert_msg(held == before, "%s, allocation %ld: %ld blocks lost", TRIES[_i].name, n,
-                      held - before);
-        if (status == SRP_OK) {
-            break;
-        }
-        ck_assert_msg(status == SRP_NO_MEMORY, "%s, allocation %ld: %s", TRIES[_i].name, n,
-                      srp_status_string(status));
-        ++failures;
-    }
-    ck_assert_msg(failures > 0, "%s", TRIES[_i].name);
+    failing_alloc_exhaust(TRIES[_i].name, run_try, &_i);
 }
 END_TEST
 

@@ -122,19 +122,3 @@ srp_scene *model_scene_turned(const model_file *model, const turn *t) {
     srp_mesh_destroy(turned);
     return scene;
 }
-
-srp_prepared *prepare_on(const srp_method *method, const srp_scene *scene) {
-    srp_error error;
-    srp_prepared *prepared = NULL;
-    srp_method_params params = srp_method_params_default();
-    params.threads = 1;
-    assert_ok(srp_method_prepare(method, scene, &params, &prepared, &error), error);
-    return prepared;
-}
-
-srp_response respond_to(const srp_prepared *prepared, srp_vec3 s) {
-    srp_error error;
-    srp_response response;
-    assert_ok(srp_prepared_respond(prepared, 1, &s, &response, NULL, &error), error);
-    return response;
-}

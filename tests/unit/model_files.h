@@ -41,8 +41,4 @@ srp_scene *model_scene_turned(const model_file *model, const turn *t);
 /* The model with every material's optics replaced. */
 srp_scene *model_scene_painted(const model_file *model, srp_optics optics);
 
-/* One method on one scene, on one thread, moments about the origin. */
-srp_prepared *prepare_on(const srp_method *method, const srp_scene *scene);
-srp_response respond_to(const srp_prepared *prepared, srp_vec3 s);
-
 #endif

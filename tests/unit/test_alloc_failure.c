@@ -2,11 +2,9 @@
 /*
  * Every constructor, reader and method meets the end of memory at each of its allocations in turn:
  * it must answer SRP_NO_MEMORY, leave its out parameter alone and give back all that it took.
- *
- * The linker sends malloc, calloc, realloc, aligned_alloc and free of our own objects through here
- * (--wrap); those of libraries are not touched.
  */
 #include "bvh.h"
+#include "failing_alloc.h"
 #include "shapes.h"
 #include "srp_check.h"
 
@@ -18,61 +16,7 @@
 #include <srp/spad.h>
 #include <srp/table.h>
 
-#include <stdatomic.h>
 #include <string.h>
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__real_aligned_alloc(size_t alignment, size_t size);
-void __real_free(void *old);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-void *__wrap_aligned_alloc(size_t alignment, size_t size);
-void __wrap_free(void *old);
-
-static atomic_long until_failure; /* allocations that still succeed; below 0: failure is past */
-static atomic_long held;          /* blocks taken and not given back */
-static atomic_bool armed;
-
-static bool fails(void) {
-    return atomic_load(&armed) && atomic_fetch_sub(&until_failure, 1) == 0;
-}
-
-static void *taken(void *block) {
-    if (block != NULL) {
-        atomic_fetch_add(&held, 1);
-    }
-    return block;
-}
-
-void *__wrap_malloc(size_t size) {
-    return fails() ? NULL : taken(__real_malloc(size));
-}
-
-void *__wrap_calloc(size_t count, size_t size) {
-    return fails() ? NULL : taken(__real_calloc(count, size));
-}
-
-void *__wrap_aligned_alloc(size_t alignment, size_t size) {
-    return fails() ? NULL : taken(__real_aligned_alloc(alignment, size));
-}
-
-void *__wrap_realloc(void *old, size_t size) {
-    if (fails()) {
-        return NULL;
-    }
-    void *block = __real_realloc(old, size);
-    return old == NULL ? taken(block) : block;
-}
-
-void __wrap_free(void *old) {
-    if (old != NULL) {
-        atomic_fetch_sub(&held, 1);
-    }
-    __real_free(old);
-}
 
 /* What there is before memory runs out. */
 static srp_mesh *box, *corner;
@@ -495,30 +439,13 @@ static const struct {
     {"txt", try_txt},
 };
 
+static srp_status run_try(void *user, srp_error *error) {
+    const int *which = user;
+    return TRIES[*which].run(error);
+}
+
 START_TEST(every_allocation_may_fail) {
-    const char *name = TRIES[_i].name;
-    srp_status status = SRP_NO_MEMORY;
-    long n = 0;
-    for (; status != SRP_OK; ++n) {
-        srp_error error = {.status = SRP_OK};
-        long before = atomic_load(&held);
-        atomic_store(&until_failure, n);
-        atomic_store(&armed, true);
-        status = TRIES[_i].run(&error);
-        atomic_store(&armed, false);
-        bool failed = atomic_load(&until_failure) < 0;
-        /* At once: the assertions themselves allocate. */
-        long leaked = atomic_load(&held) - before;
-        ck_assert_msg(status == (failed ? SRP_NO_MEMORY : SRP_OK),
-                      "%s: allocation %ld fails and the status is %d (%s)", name, n, status,
-                      error.message);
-        ck_assert_msg(!failed || (error.status == status && error.message[0] != '\0'),
-                      "%s: allocation %ld fails without a word", name, n);
-        ck_assert_msg(leaked == 0, "%s: allocation %ld fails, %ld blocks leak", name, n, leaked);
-        ck_assert_msg(n < 10000, "%s: no end of allocations", name);
-    }
-    printf("%s: %ld allocations\n", name, n - 1);
-    ck_assert_msg(n > 1, "%s allocates nothing: the test is blind", name);
+    failing_alloc_exhaust(TRIES[_i].name, run_try, &_i);
 }
 END_TEST
 
@@ -532,15 +459,13 @@ START_TEST(lookups_in_cells_that_are_ready_allocate_nothing) {
     assert_ok(srp_demand_create(prepared, (srp_grid){9, 5}, NULL, &demand, &error), error);
     assert_ok(srp_interp_create_on_demand(&srp_interp_bicubic, demand, &interp, &error), error);
     assert_ok(srp_interp_eval(interp, s, &f, &t, &slopes, &error), error);
-    atomic_store(&until_failure, 0);
-    atomic_store(&armed, true);
+    failing_alloc_arm(0);
     srp_status status = srp_interp_eval(interp, s, &f, &t, &slopes, &error);
     const srp_demand_node node = {0, 0};
     srp_status again = srp_demand_need(demand, 1, &node, &error);
-    atomic_store(&armed, false);
+    ck_assert(!failing_alloc_disarm());
     ck_assert_int_eq(status, SRP_OK);
     ck_assert_int_eq(again, SRP_OK);
-    ck_assert_int_eq(atomic_load(&until_failure), 0);
     srp_interp_destroy(interp);
     srp_demand_destroy(demand);
 }
@@ -563,22 +488,21 @@ START_TEST(a_cache_without_memory_stops_nobody) {
     long n = 0;
     params.directory = "test_alloc_failure.cache";
     params.flush_nodes = 1;
+    params.flush_share = INFINITY;
     assert_ok(srp_cache_open(&params, &log, &cache, &error), error);
     for (bool failed = true; failed; ++n) {
         srp_demand *demand = NULL;
         const srp_demand_node node = {(uint32_t)(n % 8), 2};
-        long before = atomic_load(&held);
+        long before = failing_alloc_held();
         warnings = 0;
-        atomic_store(&until_failure, n);
-        atomic_store(&armed, true);
+        failing_alloc_arm(n);
         srp_status made = srp_demand_create(prepared, (srp_grid){9, 5}, cache, &demand, &error);
         srp_status status = made == SRP_OK ? srp_demand_need(demand, 1, &node, &error) : made;
         if (made == SRP_OK) {
             srp_demand_destroy(demand);
         }
-        atomic_store(&armed, false);
-        failed = atomic_load(&until_failure) < 0;
-        long leaked = atomic_load(&held) - before;
+        failed = failing_alloc_disarm();
+        long leaked = failing_alloc_held() - before;
         ck_assert_msg(leaked == 0, "allocation %ld fails, %ld blocks leak", n, leaked);
         ck_assert_msg(status == SRP_OK || (failed && status == SRP_NO_MEMORY), "%ld: %s", n,
                       error.message);

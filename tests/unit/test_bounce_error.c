@@ -2,6 +2,7 @@
 /* Whether the standard errors of reflected light are honest: how far coarse runs are from converged
  * ones, in units of what they say of themselves. */
 #include "model_files.h"
+#include "prepared.h"
 #include "srp_check.h"
 
 #include <string.h>
@@ -16,16 +17,13 @@ typedef struct shares {
 
 static srp_prepared *prepare(const srp_scene *scene, uint32_t samples, uint32_t diffuse,
                              uint32_t beams) {
-    srp_error error;
-    srp_prepared *prepared = NULL;
     srp_method_params params = srp_method_params_default();
     params.threads = 1;
     params.diffuse = diffuse;
     params.lattice.samples = samples;
     params.seed = samples;
     params.mirrored_beams = beams;
-    assert_ok(srp_method_prepare(&srp_method_raytrace, scene, &params, &prepared, &error), error);
-    return prepared;
+    return prepare_with(&srp_method_raytrace, scene, &params);
 }
 
 static bool is_within(srp_vec3 got, srp_vec3 want, double error, double want_error) {

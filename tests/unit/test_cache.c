@@ -59,6 +59,32 @@ START_TEST(two_tables_of_one_cache_lose_nothing) {
 }
 END_TEST
 
+/* What has no time for the cache leaves it alone until it is destroyed. */
+START_TEST(it_is_not_written_where_that_takes_too_long) {
+    counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
+    for (int k = 0; k < 2; ++k) {
+        srp_cache_params params = cache_params();
+        params.flush_nodes = 1;
+        params.flush_share = k == 0 ? 0.0 : INFINITY;
+        srp_cache *cache = open_cache(&params);
+        uint32_t column = (uint32_t)(2 * k);
+        srp_demand *a = make_demand(&fixture, cache);
+        size_t before = srp_demand_count(a).ready;
+        need_columns(a, column, column + 2);
+        srp_demand *b = make_demand(&fixture, cache);
+        size_t after = srp_demand_count(b).ready;
+        ck_assert(k == 0 ? after == before : after > before);
+        srp_demand_destroy(a);
+        srp_demand_destroy(b);
+        b = make_demand(&fixture, cache);
+        ck_assert_uint_gt(srp_demand_count(b).ready, before);
+        srp_demand_destroy(b);
+        srp_cache_close(cache);
+    }
+    counting_end(&fixture);
+}
+END_TEST
+
 START_TEST(it_is_written_when_enough_is_new) {
     counting_fixture fixture = counting_begin(&counting_method, CACHE_GRID);
     srp_cache_params params = cache_params();
@@ -571,6 +597,9 @@ START_TEST(the_directory_is_that_of_the_user) {
     params.flush_nodes = 0;
     ck_assert_int_eq(srp_cache_open(&params, NULL, &cache, &error), SRP_BAD_ARGUMENT);
     params.flush_nodes = 1;
+    params.flush_share = -1.0;
+    ck_assert_int_eq(srp_cache_open(&params, NULL, &cache, &error), SRP_BAD_ARGUMENT);
+    params.flush_share = 0.0;
     params.wait_seconds = NAN;
     ck_assert_int_eq(srp_cache_open(&params, NULL, &cache, &error), SRP_BAD_ARGUMENT);
     srp_cache_close(NULL);
@@ -584,6 +613,7 @@ int main(void) {
     tcase_add_test(tcase, nodes_are_remembered);
     tcase_add_test(tcase, two_tables_of_one_cache_lose_nothing);
     tcase_add_test(tcase, it_is_written_when_enough_is_new);
+    tcase_add_test(tcase, it_is_not_written_where_that_takes_too_long);
     tcase_add_test(tcase, other_tables_have_other_files);
     tcase_add_test(tcase, whole_tables_can_be_exchanged);
     tcase_add_loop_test(tcase, a_damaged_file_is_set_aside_and_computed_again, 0, 4);

@@ -2,6 +2,7 @@
 /* Exact visibility: closed forms, surfaces that touch, cut and coincide, and random scenes against
  * an oracle that finds the visible parts another way (visibility_oracle.h). */
 #include "model_files.h"
+#include "prepared.h"
 #include "scene_internal.h"
 #include "shapes.h"
 #include "srp_check.h"
@@ -20,10 +21,7 @@ static srp_prepared *prepare(const srp_scene *scene, int threads) {
     srp_method_params params = srp_method_params_default();
     params.threads = threads;
     params.reference = REFERENCE;
-    srp_prepared *prepared = NULL;
-    srp_error error;
-    assert_ok(srp_method_prepare(&srp_method_exact, scene, &params, &prepared, &error), error);
-    return prepared;
+    return prepare_with(&srp_method_exact, scene, &params);
 }
 
 static srp_response respond(const srp_prepared *prepared, srp_vec3 s, srp_basis *basis) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What all methods share, and the two that need no visibility. */
+#include "prepared.h"
 #include "shapes.h"
 #include "srp_check.h"
 
@@ -10,10 +11,7 @@
 
 static srp_prepared *prepare(const srp_method *method, const srp_scene *scene) {
     srp_method_params params = srp_method_params_default();
-    srp_prepared *prepared = NULL;
-    srp_error error;
-    assert_ok(srp_method_prepare(method, scene, &params, &prepared, &error), error);
-    return prepared;
+    return prepare_with(method, scene, &params);
 }
 
 START_TEST(cannonball_pushes_away_from_the_sun) {

@@ -3,6 +3,7 @@
 #include "bounce.h"
 #include "method_internal.h"
 #include "model_files.h"
+#include "prepared.h"
 #include "raytrace.h"
 #include "shapes.h"
 #include "srp_check.h"
@@ -19,19 +20,12 @@ static srp_method_params params_of(uint32_t reflections, uint32_t beams) {
     return params;
 }
 
-static srp_prepared *prepare(const srp_scene *scene, const srp_method_params *params) {
-    srp_error error;
-    srp_prepared *prepared = NULL;
-    assert_ok(srp_method_prepare(&srp_method_raytrace, scene, params, &prepared, &error), error);
-    return prepared;
-}
-
 /* Exactly: nothing is sampled, and nothing is said to have been. */
 static srp_response solve(const srp_scene *scene, uint32_t reflections, srp_vec3 reference,
                           srp_vec3 s) {
     srp_method_params params = params_of(reflections, UINT32_MAX);
     params.reference = reference;
-    srp_prepared *prepared = prepare(scene, &params);
+    srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, &params);
     srp_response response = respond_to(prepared, s);
     srp_prepared_release(prepared);
     ck_assert(response.samples == 0 && response.flags == 0);
@@ -96,7 +90,7 @@ START_TEST(corner_cube_sends_light_back) {
     /* Askew, light that misses a mirror escapes elsewhere; what comes back pushes twice. */
     returned sum = {.s = askew, .least = 0.0};
     srp_method_params params = params_of(3, UINT32_MAX);
-    srp_prepared *prepared = prepare(scene, &params);
+    srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, &params);
     srp_raytrace_watch(prepared, sum_returned, &sum);
     got = respond_to(prepared, askew);
     printf("corner cube, askew: %.15f of %.6f returned, %.15f expected\n", sum.flux, got.lit_area,
@@ -276,7 +270,7 @@ static srp_scene *random_scene(uint64_t *random, uint32_t count, srp_optics opti
 static void check_books(const srp_scene *scene, uint32_t reflections, srp_vec3 s, int *hits) {
     srp_method_params params = params_of(reflections, UINT32_MAX);
     account books = {.scene = scene};
-    srp_prepared *prepared = prepare(scene, &params);
+    srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, &params);
     srp_raytrace_watch(prepared, keep_account, &books);
     srp_response got = respond_to(prepared, s);
     double scale = scene->radius * scene->radius;
@@ -356,7 +350,7 @@ START_TEST(samples_converge_to_beams) {
         srp_scene *scene = random_scene(&random, 3 + k % 20, (srp_optics){0.8, 0.1, k % 4 == 0});
         srp_vec3 s = random_direction(&random);
         srp_method_params params = params_of(1 + k % 3, 0);
-        srp_prepared *prepared = prepare(scene, &params);
+        srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, &params);
         srp_response got = respond_to(prepared, s);
         srp_response want = solve(scene, 1 + k % 3, ORIGIN, s);
         double scale = scene->radius * scene->radius;
@@ -385,7 +379,7 @@ START_TEST(models_agree_with_samples) {
     for (int k = 0; k < cases; ++k) {
         srp_vec3 s = random_direction(&random);
         srp_method_params params = params_of(2, 0);
-        srp_prepared *prepared = prepare(scene, &params);
+        srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, &params);
         srp_response got = respond_to(prepared, s);
         srp_response want = solve(scene, 2, ORIGIN, s);
         ck_assert((got.flags & SRP_RESPONSE_MIRRORS_SAMPLED) != 0 || got.samples == 0);
@@ -406,13 +400,13 @@ START_TEST(too_many_beams_are_sampled) {
     const srp_vec3 s = unit(0.82, 0.49, 0.29);
     srp_response plain, limited;
     srp_method_params params = params_of(2, 0);
-    srp_prepared *prepared = prepare(scene, &params);
+    srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, &params);
     plain = respond_to(prepared, s);
     srp_prepared_release(prepared);
     ck_assert(plain.flags == SRP_RESPONSE_MIRRORS_SAMPLED && plain.samples > 0);
     for (uint32_t limit = 1; limit <= 1000; limit *= 10) {
         params = params_of(2, limit);
-        prepared = prepare(scene, &params);
+        prepared = prepare_with(&srp_method_raytrace, scene, &params);
         limited = respond_to(prepared, s);
         ck_assert_mem_eq(&plain, &limited, sizeof plain);
         srp_prepared_release(prepared);
@@ -420,12 +414,12 @@ START_TEST(too_many_beams_are_sampled) {
     /* Diffuse light is sampled beside exact mirrors, and is all that errs. */
     params = params_of(2, UINT32_MAX);
     params.diffuse = 2;
-    prepared = prepare(scene, &params);
+    prepared = prepare_with(&srp_method_raytrace, scene, &params);
     srp_response both = respond_to(prepared, s);
     srp_prepared_release(prepared);
     ck_assert(both.flags == 0 && both.samples > 0 && both.f_error > 0.0);
     params.mirrored_beams = 0;
-    prepared = prepare(scene, &params);
+    prepared = prepare_with(&srp_method_raytrace, scene, &params);
     srp_response sampled = respond_to(prepared, s);
     srp_prepared_release(prepared);
     ck_assert(both.f_error < sampled.f_error && both.samples == sampled.samples);
@@ -450,7 +444,7 @@ START_TEST(bits_do_not_depend_on_threads) {
     for (int n = 0; n < 4; ++n) {
         srp_method_params params = params_of(2, 8192);
         params.threads = THREADS[n];
-        srp_prepared *prepared = prepare(scene, &params);
+        srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, &params);
         srp_response *out = n == 0 ? first : got;
         assert_ok(srp_prepared_respond(prepared, 7, s, out, NULL, &error), error);
         srp_prepared_release(prepared);

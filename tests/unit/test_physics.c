@@ -4,6 +4,7 @@
  * quantities of AAS 20-481's Tables 1 and 2, moments, and linearity in the optics.
  */
 #include "model_files.h"
+#include "prepared.h"
 #include "shapes.h"
 #include "srp_check.h"
 

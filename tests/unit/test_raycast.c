@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "lattice.h"
+#include "prepared.h"
 #include "raster_canvas.h"
 #include "scene_internal.h"
 #include "shapes.h"
@@ -13,20 +14,6 @@
 #include <string.h>
 
 static const srp_optics SHINY = {0.5, 0.1, false};
-
-static srp_prepared *prepare(const srp_scene *scene, const srp_method_params *params) {
-    srp_error error;
-    srp_prepared *prepared = NULL;
-    assert_ok(srp_method_prepare(&srp_method_raycast, scene, params, &prepared, &error), error);
-    return prepared;
-}
-
-static srp_response respond(const srp_prepared *prepared, srp_vec3 s) {
-    srp_error error;
-    srp_response response;
-    assert_ok(srp_prepared_respond(prepared, 1, &s, &response, NULL, &error), error);
-    return response;
-}
 
 static srp_method_params window_params(double half, uint32_t columns, uint32_t rows) {
     srp_method_params params = srp_method_params_default();
@@ -136,7 +123,7 @@ static void compare_with_slow_cast(const srp_scene *scene, const srp_method_para
                                    size_t directions, uint64_t *seed) {
     srp_basis got[4], want[4];
     ck_assert_uint_le(scene->material_count + 1, 4);
-    srp_prepared *prepared = prepare(scene, params);
+    srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, params);
     for (size_t n = 0; n < directions; ++n) {
         srp_vec3 s = random_direction(seed);
         srp_response response;
@@ -246,8 +233,8 @@ START_TEST(tiles_share_no_sample_and_leave_none_out) {
         int64_t want = (int64_t)params.lattice.columns * params.lattice.rows;
         ck_assert_int_eq(count_alone(scene, &params, above), want);
         ck_assert_int_eq(count_alone(scene, &params, below), want);
-        srp_prepared *prepared = prepare(scene, &params);
-        srp_response response = respond(prepared, above);
+        srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
+        srp_response response = respond_to(prepared, above);
         double area = (params.lattice.window[1] - params.lattice.window[0]) *
                       (params.lattice.window[3] - params.lattice.window[2]);
         assert_close(response.lit_area, area, 1e-14, 0.0);
@@ -272,12 +259,12 @@ START_TEST(bits_depend_on_neither_threads_nor_batches) {
         s[n] = random_direction(&seed);
     }
     params.threads = 1;
-    srp_prepared *prepared = prepare(scene, &params);
+    srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
     assert_ok(srp_prepared_respond(prepared, COUNT, s, want, NULL, &error), error);
     srp_prepared_release(prepared);
     for (int threads = 1; threads <= 8; threads += 3) {
         params.threads = threads;
-        prepared = prepare(scene, &params);
+        prepared = prepare_with(&srp_method_raycast, scene, &params);
         for (size_t batch = 1; batch <= COUNT; batch *= 4) {
             for (size_t n = 0; n < COUNT; n += batch) {
                 size_t count = COUNT - n < batch ? COUNT - n : batch;
@@ -321,10 +308,10 @@ START_TEST(error_falls_nearly_with_the_number_of_samples) {
     for (int level = 0; level < LEVELS; ++level) {
         uint64_t seed = 5;
         params.lattice.samples = 32U << level;
-        srp_prepared *prepared = prepare(scene, &params);
+        srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
         for (int n = 0; n < COUNT; ++n) {
             srp_vec3 s = random_direction(&seed);
-            srp_response response = respond(prepared, s);
+            srp_response response = respond_to(prepared, s);
             truth[level] += srp_vec3_norm(srp_vec3_sub(response.f, convex_force(scene, s))) / COUNT;
             estimate[level] += response.f_error / COUNT;
         }
@@ -380,10 +367,10 @@ START_TEST(pixel_sets_the_cell) {
     srp_scene *scene = make_brick();
     srp_method_params params = srp_method_params_default();
     params.lattice.pixel = 0.01;
-    srp_prepared *prepared = prepare(scene, &params);
+    srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
     for (int n = 0; n < 20; ++n) {
         srp_vec3 s = random_direction(&seed);
-        srp_response response = respond(prepared, s);
+        srp_response response = respond_to(prepared, s);
         double off = srp_vec3_norm(srp_vec3_sub(response.f, convex_force(scene, s)));
         ck_assert(off < 5.0 * response.f_error);
         double cells = response.lit_area / 1e-4;
@@ -408,10 +395,10 @@ START_TEST(tolerance_chooses_the_samples) {
     params.lattice.samples = 16;
     params.tolerance = 1e-3;
     params.threads = 3;
-    srp_prepared *prepared = prepare(scene, &params);
+    srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
     for (int n = 0; n < 40; ++n) {
         srp_vec3 s = random_direction(&seed);
-        srp_response response = respond(prepared, s);
+        srp_response response = respond_to(prepared, s);
         ck_assert_uint_eq(response.flags, 0);
         ck_assert(response.f_error <= 1e-3 * srp_vec3_norm(response.f));
         ck_assert(response.samples > 16 * 16);
@@ -419,8 +406,8 @@ START_TEST(tolerance_chooses_the_samples) {
     srp_prepared_release(prepared);
     params.tolerance = 1e-9;
     params.max_samples = 100;
-    prepared = prepare(scene, &params);
-    srp_response response = respond(prepared, random_direction(&seed));
+    prepared = prepare_with(&srp_method_raycast, scene, &params);
+    srp_response response = respond_to(prepared, random_direction(&seed));
     ck_assert_uint_eq(response.flags, SRP_RESPONSE_TOLERANCE_MISSED);
     ck_assert(response.samples > 32 * 32 && response.samples <= 64 * 64);
     srp_prepared_release(prepared);
@@ -432,14 +419,14 @@ START_TEST(window_that_cuts_says_so) {
     srp_scene *scene = make_brick();
     srp_method_params params = window_params(2.0, 200, 200);
     srp_vec3 s = {0.0, 0.0, 1.0};
-    srp_prepared *prepared = prepare(scene, &params);
-    srp_response whole = respond(prepared, s);
+    srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
+    srp_response whole = respond_to(prepared, s);
     ck_assert_uint_eq(whole.flags, 0);
     srp_prepared_release(prepared);
     /* Leaves out what lies beyond x = -0.5, seen along v. */
     params.lattice.window[3] = 0.5;
-    prepared = prepare(scene, &params);
-    srp_response cut = respond(prepared, s);
+    prepared = prepare_with(&srp_method_raycast, scene, &params);
+    srp_response cut = respond_to(prepared, s);
     ck_assert_uint_eq(cut.flags, SRP_RESPONSE_CUT);
     ck_assert(srp_vec3_norm(srp_vec3_sub(cut.f, whole.f)) > 0.1);
     ck_assert(srp_vec3_norm(srp_vec3_sub(cut.f, whole.f)) < cut.f_error);
@@ -447,8 +434,8 @@ START_TEST(window_that_cuts_says_so) {
     /* Nothing at all in sight. */
     params.lattice.window[2] = 5.0;
     params.lattice.window[3] = 9.0;
-    prepared = prepare(scene, &params);
-    cut = respond(prepared, s);
+    prepared = prepare_with(&srp_method_raycast, scene, &params);
+    cut = respond_to(prepared, s);
     ck_assert_uint_eq(cut.flags, SRP_RESPONSE_CUT);
     ck_assert_double_eq(cut.lit_area, 0.0);
     ck_assert(cut.f_error >= srp_vec3_norm(whole.f));
@@ -463,9 +450,9 @@ START_TEST(open_sheet_is_lit_from_both_sides) {
         srp_optics optics = {0.5, 0.1, one_sided};
         srp_scene *scene = shape_scene(tiled_square(&seed, 0.0), optics);
         srp_method_params params = window_params(1.0, 50, 50);
-        srp_prepared *prepared = prepare(scene, &params);
-        srp_response front = respond(prepared, srp_vec3_make(0.0, 0.0, 1.0));
-        srp_response back = respond(prepared, srp_vec3_make(0.0, 0.0, -1.0));
+        srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
+        srp_response front = respond_to(prepared, srp_vec3_make(0.0, 0.0, 1.0));
+        srp_response back = respond_to(prepared, srp_vec3_make(0.0, 0.0, -1.0));
         double absorbed = 4.0, reflected = 4.0 * (1.0 - 0.5 + 2.0 * (0.5 + 0.1 / 3.0));
         assert_close(front.f.z, -reflected, 1e-12, 0.0);
         assert_close(front.back_area, 0.0, 0.0, 0.0);
@@ -490,7 +477,7 @@ START_TEST(coincident_faces_show_their_outside) {
         size_t up_row = order ? 1 : 0;
         ck_assert_str_eq(srp_scene_material_name(scene, up_row), "up");
         srp_method_params params = srp_method_params_default();
-        srp_prepared *prepared = prepare(scene, &params);
+        srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
         uint64_t seed = 10;
         for (int n = 0; n < 50; ++n) {
             srp_vec3 s = random_direction(&seed);
@@ -551,8 +538,8 @@ START_TEST(sharing_a_direction_changes_no_bit) {
         srp_response want = {0};
         for (int threads = 1; threads <= 5; ++threads) {
             params.threads = threads;
-            srp_prepared *prepared = prepare(scene, &params);
-            srp_response got = respond(prepared, s);
+            srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
+            srp_response got = respond_to(prepared, s);
             want = threads == 1 ? got : want;
             ck_assert_int_eq(memcmp(&got, &want, sizeof got), 0);
             srp_prepared_release(prepared);
@@ -573,8 +560,8 @@ START_TEST(seed_draws_another_shift) {
     int changes = 0;
     for (uint64_t seed = 0; seed < SEEDS; ++seed) {
         params.seed = seed;
-        srp_prepared *prepared = prepare(scene, &params);
-        srp_response response = respond(prepared, s);
+        srp_prepared *prepared = prepare_with(&srp_method_raycast, scene, &params);
+        srp_response response = respond_to(prepared, s);
         changes += srp_vec3_norm(srp_vec3_sub(response.t, last)) > 0.0;
         last = response.t;
         mean = srp_vec3_add_scaled(mean, 1.0 / SEEDS, response.f);

@@ -6,6 +6,7 @@
  * test_lro.c.
  */
 #include "model_files.h"
+#include "prepared.h"
 #include "srp_check.h"
 
 #include <string.h>
@@ -89,10 +90,8 @@ typedef struct subject {
 
 static void respond_all(const srp_method *method, const subject *on,
                         const srp_method_params *params, srp_response *responses) {
-    srp_error error;
-    srp_prepared *prepared = NULL;
-    assert_ok(srp_method_prepare(method, on->scene, params, &prepared, &error), error);
-    assert_ok(srp_prepared_respond(prepared, on->count, on->s, responses, NULL, &error), error);
+    srp_prepared *prepared = prepare_with(method, on->scene, params);
+    respond_each(prepared, on->count, on->s, responses);
     srp_prepared_release(prepared);
 }
 

@@ -5,6 +5,7 @@
 #include "bounce.h"
 #include "method_internal.h"
 #include "model_files.h"
+#include "prepared.h"
 #include "raytrace.h"
 #include "shapes.h"
 #include "srp_check.h"
@@ -23,16 +24,8 @@ static srp_method_params params_of(uint32_t reflections, uint32_t diffuse) {
     return params;
 }
 
-static srp_prepared *prepare(const srp_method *method, const srp_scene *scene,
-                             const srp_method_params *params) {
-    srp_error error;
-    srp_prepared *prepared = NULL;
-    assert_ok(srp_method_prepare(method, scene, params, &prepared, &error), error);
-    return prepared;
-}
-
 static srp_response trace(const srp_scene *scene, const srp_method_params *params, srp_vec3 s) {
-    srp_prepared *prepared = prepare(&srp_method_raytrace, scene, params);
+    srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, params);
     srp_response response = respond_to(prepared, s);
     srp_prepared_release(prepared);
     return response;
@@ -122,7 +115,7 @@ START_TEST(corner_cube_sends_light_back) {
         srp_vec3_scale(1.0 / srp_vec3_norm((srp_vec3){0.8, 0.7, 0.45}), (srp_vec3){0.8, 0.7, 0.45});
     returned sum = {askew, 0.0};
     params.reflections = 3;
-    srp_prepared *prepared = prepare(&srp_method_raytrace, scene, &params);
+    srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, &params);
     srp_raytrace_watch(prepared, sum_returned, &sum);
     got = respond_to(prepared, askew);
     printf("corner cube, askew: %.6f of %.6f returned, %.6f expected\n", sum.flux, got.lit_area,
@@ -199,7 +192,7 @@ START_TEST(momentum_is_kept) {
         params.lattice.samples = 96;
         account books = {.scene = scene};
         const srp_vec3 inside = srp_vec3_make(0.48, 0.6, 0.64); /* of the dihedral */
-        srp_prepared *prepared = prepare(&srp_method_raytrace, scene, &params);
+        srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, &params);
         srp_raytrace_watch(prepared, keep_account, &books);
         srp_response got = respond_to(prepared, k == 0 ? inside : random_direction(&random));
         double scale = srp_vec3_norm(books.in);
@@ -219,8 +212,8 @@ START_TEST(no_rays_where_nothing_is_seen) {
     static const char *const names[] = {"cube", "icosphere-1280"};
     srp_scene *scene = scene_of(names[_i]);
     srp_method_params params = params_of(2, 4);
-    srp_prepared *traced = prepare(&srp_method_raytrace, scene, &params);
-    srp_prepared *exact = prepare(&srp_method_exact, scene, &params);
+    srp_prepared *traced = prepare_with(&srp_method_raytrace, scene, &params);
+    srp_prepared *exact = prepare_with(&srp_method_exact, scene, &params);
     uint64_t random = 5;
     for (int k = 0; k < 20; ++k) {
         srp_vec3 s = random_direction(&random);
@@ -238,10 +231,10 @@ END_TEST
 START_TEST(direct_part_is_exact) {
     srp_scene *scene = scene_of("box-wing");
     srp_method_params params = params_of(0, 4);
-    srp_prepared *none = prepare(&srp_method_raytrace, scene, &params);
+    srp_prepared *none = prepare_with(&srp_method_raytrace, scene, &params);
     params.reflections = 2;
-    srp_prepared *two = prepare(&srp_method_raytrace, scene, &params);
-    srp_prepared *exact = prepare(&srp_method_exact, scene, &params);
+    srp_prepared *two = prepare_with(&srp_method_raytrace, scene, &params);
+    srp_prepared *exact = prepare_with(&srp_method_exact, scene, &params);
     uint64_t random = 7;
     for (int k = 0; k < 5; ++k) {
         srp_vec3 s = random_direction(&random);
@@ -303,7 +296,7 @@ END_TEST
 static void respond_all(const srp_scene *scene, const srp_method_params *params, size_t count,
                         const srp_vec3 *s, srp_response *out) {
     srp_error error;
-    srp_prepared *prepared = prepare(&srp_method_raytrace, scene, params);
+    srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, params);
     assert_ok(srp_prepared_respond(prepared, count, s, out, NULL, &error), error);
     srp_prepared_release(prepared);
 }
@@ -352,7 +345,7 @@ START_TEST(tables_are_the_same_for_any_threads) {
         srp_grid grid;
         srp_table *table = NULL;
         params.threads = threads;
-        srp_prepared *prepared = prepare(&srp_method_raytrace, scene, &params);
+        srp_prepared *prepared = prepare_with(&srp_method_raytrace, scene, &params);
         assert_ok(srp_grid_from_steps(30.0, 30.0, &grid, &error), error);
         assert_ok(srp_table_create(prepared, grid, true, &table, &error), error);
         assert_ok(srp_table_fill(table, prepared, NULL, &error), error);

@@ -6,6 +6,7 @@
  * without any of our parts but the scene.
  */
 #include "model_files.h"
+#include "prepared.h"
 #include "scene_internal.h"
 #include "srp_check.h"
 

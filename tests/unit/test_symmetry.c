@@ -5,6 +5,7 @@
  * fewer of the large ones.
  */
 #include "model_files.h"
+#include "prepared.h"
 #include "srp_check.h"
 
 #include <string.h>

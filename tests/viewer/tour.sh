@@ -41,6 +41,7 @@ wait
 record
 expect arrows 6 arrows
 expect record Start
+wait
 screenshot $SHOTS/3-arrows.png
 colouring incidence
 wait
@@ -106,10 +107,12 @@ tab compare
 compare-a 1
 fit 6
 wait
+expect plates-count 6
 expect compare-b 6 plates fitted
 expect message fitted to
 print vector-rms
 save $scratch/fitted.plates
+wait
 screenshot $SHOTS/9-fit.png
 
 clear-tables
@@ -136,7 +139,11 @@ seen 4-incidence.png 10 240 840 460 25 0.985
 seen 1-open.png 870 240 400 350 8 0.97
 seen 5-table.png 10 320 1260 440 60 0.95
 seen 6-second.png 10 320 1260 440 60 0.95
-seen 7-compare.png 10 440 1260 320 60 0.95
+for corner in '10 290' '440 290' '10 535' '440 535'; do
+    # shellcheck disable=SC2086 # two numbers
+    seen 7-compare.png $corner 410 225 40 0.95
+done
+seen 7-compare.png 870 290 400 230 8 0.97
 seen 8-dark.png 10 240 840 460 25 0.985
 for pair in '1-open 2-turn' '2-turn 3-arrows' '3-arrows 4-incidence' '1-open 8-dark' '5-table 6-second'; do
     read -r one other <<< "$pair"
@@ -193,6 +200,13 @@ END
     cmp "$scratch/cli.csv" "$scratch/viewer.csv" || fail 'other rows than srp propagate'
 fi
 
+# The script of the user guide.
+sed -n '/^cat > steps << END$/,/^END$/p' "$ROOT/docs/user-guide.md" | sed '1d; $d' > "$scratch/steps"
+(cd "$scratch" && view 0 --actions steps "$ROOT/models/box-wing.obj" && exit "$failures") || fail "the user guide's script"
+for file in box-wing.nc table.png; do
+    [ -s "$scratch/$file" ] || fail "the user guide's script makes no $file"
+done
+
 # A script that does not find what it expects says so.
 printf 'wait\nexpect model-name no-such-model\n' > "$scratch/steps"
 view 1 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
@@ -202,10 +216,14 @@ grep -q "steps:.*says 'box-wing.obj', expected 'no-such-model'" "$scratch/err" |
 [ ! -e "$XDG_CONFIG_HOME/srpcore/viewer.ini" ] || fail 'a script left a state'
 printf '%s\n' 'wait' 'method raycast' 'parameter grid=77' 'enter mass 12.5' 'az-step 15' 'tab graphics' 'wait' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps" "$ROOT/models/cube.obj"
-printf '%s\n' 'wait' 'expect method raycast' 'expect grid 77' 'expect mass 12.5' 'expect az-step 15' 'method exact' 'wait' > "$scratch/steps"
+printf '%s\n' 'wait' 'expect method raycast' 'expect grid 77' 'expect mass 12.5' 'expect az-step 15' 'method exact' 'wait' 'expect message needs an OBJ file' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps"
 grep -q '^files=.*models/cube.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the file is not among the recent ones'
 grep -q '^tab=1' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the tab is not remembered'
+printf 'v 1 2 x\n' > "$scratch/broken.obj"
+printf '%s\n' wait "open $scratch/broken.obj" wait 'expect message broken.obj:1' > "$scratch/steps"
+view 0 --remember --actions "$scratch/steps"
+! grep -q 'broken.obj' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'what cannot be opened is remembered'
 # Two windows at once: what either opened is remembered.
 printf '%s\n' wait 'pause 4' > "$scratch/slow"
 run_viewer --remember --actions "$scratch/slow" "$ROOT/models/dish.obj" > "$scratch/log" 2>&1 &

@@ -21,10 +21,22 @@ view 2 one.obj two.obj
 view 2 one.obj --model two.obj
 view 2 --actions "$scratch/no-such-file"
 view 2 --tab sideways --screenshot "$scratch/x.png"
-view 2 --size 12 --screenshot "$scratch/x.png"
+for size in 12 0x0 -5x800 1280x 99x800 1280x20001; do
+    view 2 --size "$size" "$ROOT/models/cube.obj"
+    grep -q -- "--size $size: expected WIDTHxHEIGHT" "$scratch/err" || fail "--size $size"
+done
 # A picture of what could not be opened is no success.
 view 1 --screenshot "$scratch/x.png" "$scratch/no-such.obj"
 view 1 --screenshot "$scratch/x.png" --model "$scratch/no-such.obj"
+
+# Nor is a script of which a step was refused and nothing expected that; the steps after it are done.
+printf '%s\n' 'enter mass -3' 'enter mass -4' 'expect message Mass -4' "save $scratch/no-such/x.png" \
+    'enter mass 5' wait 'expect mass 5' 'note the end' > "$scratch/steps"
+view 1 --actions "$scratch/steps" --tab graphics "$ROOT/models/cube.obj"
+grep -q '^the end$' "$scratch/out" || fail 'a refused step ended the script'
+[ "$(grep -c steps: "$scratch/err")" -eq 2 ] || fail 'not two refused steps'
+grep -q 'steps:1: Mass -3: expected' "$scratch/err" || fail 'the first step was refused, and that was not said'
+grep -q 'steps:4: ' "$scratch/err" || fail 'the picture cannot be written, and that was not said'
 
 # Files that are not there, or broken, and what comes after them.
 printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/broken.obj"
@@ -110,6 +122,27 @@ END
 view 0 --actions "$scratch/steps" "$scratch/lost.obj"
 [ -z "$(value message)" ] || fail "with the MTL the message is '$(value message)'"
 
+# However many materials, they take one line; a third line is behind More.
+{
+    echo 'mtllib nowhere.mtl'
+    for k in 1 2 3 4 5 6 7 8 9 10; do
+        printf 'usemtl skin%d\nv %d 0 0\nv %d.5 0 0\nv %d 1.5 0\nf -3 -2 -1\n' $k $k $k $k
+    done
+} > "$scratch/many.obj"
+cat > "$scratch/steps" << END
+wait
+expect message the materials 'skin1', 'skin2',
+expect message 'skin7' and 3 others have no optics
+method cannonball
+wait
+expect message in Materials …
+expect whole-message needs Cr and Area
+END
+view 0 --actions "$scratch/steps" "$scratch/many.obj"
+sed -i '/skin[3-9]/,/^f/d; /skin10/,/^f/d' "$scratch/many.obj"
+printf '%s\n' wait "expect message the materials 'skin1' and 'skin2' have no optics" > "$scratch/steps"
+view 0 --actions "$scratch/steps" "$scratch/many.obj"
+
 # A spacecraft that takes long and cannot be read, and another one before it has been: nothing is said of it.
 # Others are opened while a table is computed, which goes on, and is of the one that it was asked for.
 {
@@ -138,6 +171,7 @@ open $scratch/long.obj
 pause 0.05
 open $scratch/broken.obj
 open $ROOT/models/dish.obj
+wait
 screenshot $scratch/waited.png
 expect table 1: cube.obj
 expect model-name dish.obj
@@ -165,6 +199,7 @@ parameter diffuse=8
 wait
 compute-table
 pause 0.7
+screenshot $SHOTS/progress.png
 expect progress directions
 cancel
 wait
@@ -193,17 +228,21 @@ awk 'BEGIN {
 cat > "$scratch/steps" << END
 resize 1280 800
 wait
+expect message the material '' has no optics
 material =0.3,0.2
 wait
 expect model-facts 72000 triangles
 camera -40,24,1
+wait
 screenshot $SHOTS/large-1.png
 shadows
+wait
 screenshot $SHOTS/large-2.png
 shadows
 camera 30,10,1
 pause 0.05
 camera -40,24,1
+wait
 screenshot $SHOTS/large-3.png
 stall
 END
@@ -212,15 +251,28 @@ grep -q '^stall: [0-9]* ms$' "$scratch/out" || fail 'does not say for how long i
 cmp -s "$SHOTS/large-1.png" "$SHOTS/large-3.png" || fail 'the large spacecraft is not whole again'
 ! cmp -s "$SHOTS/large-1.png" "$SHOTS/large-2.png" || fail 'the large spacecraft casts no shadow'
 
-# Without OpenGL there is no picture, and all the rest.
+# Without OpenGL, or with an old one, there is no picture, and all the rest: our words stand alone, and are not
+# one word wide.
 cat > "$scratch/steps" << END
+resize 1280 800
 wait
-expect trouble No picture
+expect trouble No picture: it takes OpenGL 3.3
+expect trouble Numbers, tables and orbits go on
+print scene
+screenshot $SHOTS/no-picture.png
 expect lit-area e+
 tab graphics
 compute-table
 wait
 expect table cube.obj
 END
-GDK_DEBUG=gl-disable GSK_RENDERER=cairo view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+for old in 'GDK_DEBUG=gl-disable GSK_RENDERER=cairo' 'MESA_GL_VERSION_OVERRIDE=2.1'; do
+    (
+        export $old
+        view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+        exit $failures
+    ) || fail "$old"
+    [ -z "$(value scene)" ] || fail "$old: GTK writes over our words: $(value scene)"
+    "$CHECK" "$SHOTS/no-picture.png" 1280 800 270 380 60 200 3 0.99 || fail "$old: the words are narrow"
+done
 judge

@@ -33,13 +33,15 @@ typedef struct srp_cache_params {
     const char *directory;
     uint64_t size_max; /* [byte] of all files together */
     /* A table that fills itself is written when it is destroyed and, by the thread that has just
-     * computed, when this much is new. */
+     * computed, when this much is new and writing takes no larger share of the time: the whole
+     * table is written, which takes seconds where the grid is fine. */
     size_t flush_nodes;   /* > 0 */
     double flush_seconds; /* >= 0 [s] since it was last written, if anything is new */
+    double flush_share;   /* >= 0; of the time since then that the last writing took */
     double wait_seconds;  /* >= 0 [s] that a lock is waited for before the cache is done without */
 } srp_cache_params;
 
-/* The user's directory, 1 GiB, 4096 nodes, 10 s, 10 s. */
+/* The user's directory, 1 GiB, 4096 nodes, 10 s, 0.05, 10 s. */
 SRP_API srp_cache_params srp_cache_params_default(void);
 
 /*
