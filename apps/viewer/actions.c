@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "actions.h"
 
+#include "dropping.h"
 #include "exchange.h"
 #include "facing.h"
 #include "fit.h"
@@ -39,6 +40,20 @@ static void setup_said(viewer *v, bool good, const viewer_words *problem) {
     if (good) {
         viewer_request_engine(v, false);
     }
+}
+
+/* Files as a shell reads them. */
+static void drop(viewer *v, GVariant *parameter) {
+    char **paths = NULL;
+    int count = 0;
+    GError *error = NULL;
+    if (!g_shell_parse_argv(g_variant_get_string(parameter, NULL), &count, &paths, &error)) {
+        viewer_complain(v, error->message);
+        g_error_free(error);
+        return;
+    }
+    viewer_drop(v, (const char *const *)paths, (size_t)count);
+    g_strfreev(paths);
 }
 
 static void set_unit(viewer *v, GVariant *parameter) {
@@ -414,7 +429,7 @@ static void propagate(viewer *v, GVariant *parameter) {
 
 static void copy_command(viewer *v, GVariant *parameter) {
     (void)parameter;
-    char *line = viewer_exchange_force_command(v);
+    char *line = viewer_check_engine(v) ? viewer_exchange_force_command(v) : NULL;
     if (line != NULL) {
         gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(v->window)), line);
         viewer_say(v, line);
@@ -442,6 +457,8 @@ static void close_window(viewer *v, GVariant *parameter) {
 static const viewer_action ACTIONS[] = {
     {"open", "s", NULL, "Open an OBJ file.", open_model},
     {"choose-model", NULL, "<Control>o", "Ask for an OBJ file.", choose_model},
+    {"drop", "s", NULL, "Take files by their endings, as those that are dropped on the window.",
+     drop},
     {"reload", NULL, "<Control>r F5", "Read the files again.", reload},
     {"unit", "s", NULL, "Unit of the OBJ file: m, cm, mm, in, ft or a number of metres.", set_unit},
     {"plates", "s", NULL, "Plates file of the method nplate.", set_plates},

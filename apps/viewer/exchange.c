@@ -46,7 +46,7 @@ void viewer_exchange_open_mtl(viewer *v, const char *path) {
     srp_error error;
     viewer_words problem = {""};
     if (engine == NULL || engine->shape == NULL) {
-        viewer_complain(v, "There is no spacecraft yet: open one.");
+        viewer_complain(v, VIEWER_NO_SPACECRAFT);
         return;
     }
     viewer_words_listen(&problem);
@@ -75,6 +75,7 @@ void viewer_exchange_open_mtl(viewer *v, const char *path) {
 
 typedef struct question {
     viewer *v;
+    void (*answered)(viewer *v, const char *action, const char *path);
     const char *action;
 } question;
 
@@ -84,7 +85,7 @@ static void on_response(GtkNativeDialog *dialog, int response, gpointer user) {
         GFile *file = gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog));
         char *path = file != NULL ? g_file_get_path(file) : NULL;
         if (path != NULL) {
-            viewer_act_text(asked->v, asked->action, path);
+            asked->answered(asked->v, asked->action, path);
         }
         g_free(path);
         g_clear_object(&file);
@@ -93,45 +94,71 @@ static void on_response(GtkNativeDialog *dialog, int response, gpointer user) {
     g_object_unref(dialog);
 }
 
-/* Asks for a file whose ending is one of `patterns`, and hands it to an action. `name` is proposed;
- * NULL: none. */
-static void ask(viewer *v, const char *title, const char *action, GtkFileChooserAction how,
-                const char *kind, const char *const *patterns, const char *name) {
-    GtkFileChooserNative *dialog = gtk_file_chooser_native_new(title, v->window, how, NULL, NULL);
+static void add_filter(GtkFileChooser *dialog, const char *kind, const char *const *patterns) {
     GtkFileFilter *filter = gtk_file_filter_new();
     gtk_file_filter_set_name(filter, kind);
     for (size_t i = 0; patterns[i] != NULL; ++i) {
         gtk_file_filter_add_pattern(filter, patterns[i]);
     }
-    gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(dialog), filter);
+    gtk_file_chooser_add_filter(dialog, filter);
     g_object_unref(filter);
+}
+
+/* Begins where the spacecraft is, or where the program was started. */
+static void choose_folder(const viewer *v, GtkFileChooser *dialog) {
+    const char *model = v->session->setup->model;
+    char *folder = model != NULL ? g_path_get_dirname(model) : g_get_current_dir();
+    GFile *file = g_file_new_for_path(folder);
+    (void)gtk_file_chooser_set_current_folder(dialog, file, NULL);
+    g_object_unref(file);
+    g_free(folder);
+}
+
+/* Asks for a file whose ending is one of `patterns`. `name` is proposed; NULL: none. */
+static void ask_and(const question *what, const char *title, GtkFileChooserAction how,
+                    const char *kind, const char *const *patterns, const char *name) {
+    static const char *const all[] = {"*", NULL};
+    GtkFileChooserNative *dialog =
+        gtk_file_chooser_native_new(title, what->v->window, how, NULL, NULL);
+    add_filter(GTK_FILE_CHOOSER(dialog), kind, patterns);
+    add_filter(GTK_FILE_CHOOSER(dialog), "All files", all);
+    choose_folder(what->v, GTK_FILE_CHOOSER(dialog));
     if (name != NULL) {
         gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(dialog), name);
     }
     question *asked = g_new0(question, 1);
-    *asked = (question){v, action};
+    *asked = *what;
     gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(dialog), TRUE);
     g_signal_connect(dialog, "response", G_CALLBACK(on_response), asked);
     gtk_native_dialog_show(GTK_NATIVE_DIALOG(dialog));
+}
+
+static void act(viewer *v, const char *action, const char *path) {
+    viewer_act_text(v, action, path);
+}
+
+/* Asks for a file to be opened, and hands it to an action. */
+static void ask(viewer *v, const char *title, const char *action, const char *kind,
+                const char *const *patterns) {
+    const question what = {v, act, action};
+    ask_and(&what, title, GTK_FILE_CHOOSER_ACTION_OPEN, kind, patterns, NULL);
 }
 
 static const char *const TABLES[] = {"*.nc", "*.spo", "*.txt", NULL};
 
 void viewer_exchange_ask_open(viewer *v) {
     static const char *const patterns[] = {"*.obj", "*.OBJ", NULL};
-    ask(v, "Open a Spacecraft", "open", GTK_FILE_CHOOSER_ACTION_OPEN, "Wavefront OBJ", patterns,
-        NULL);
+    ask(v, "Open a Spacecraft", "open", "Wavefront OBJ", patterns);
 }
 
 void viewer_exchange_ask_plates(viewer *v) {
     static const char *const patterns[] = {"*.plates", "*.txt", NULL};
-    ask(v, "Open Plates", "plates", GTK_FILE_CHOOSER_ACTION_OPEN, "Plates", patterns, NULL);
+    ask(v, "Open Plates", "plates", "Plates", patterns);
 }
 
 void viewer_exchange_ask_mtl(viewer *v) {
     static const char *const patterns[] = {"*.mtl", "*.MTL", NULL};
-    ask(v, "Find the MTL File", "mtl", GTK_FILE_CHOOSER_ACTION_OPEN, "Wavefront MTL", patterns,
-        NULL);
+    ask(v, "Find the MTL File", "mtl", "Wavefront MTL", patterns);
 }
 
 void viewer_exchange_miss_mtl(viewer *v) {
@@ -147,19 +174,38 @@ void viewer_exchange_miss_mtl(viewer *v) {
 }
 
 void viewer_exchange_ask_table(viewer *v) {
-    ask(v, "Open a Table", "open-table", GTK_FILE_CHOOSER_ACTION_OPEN, "Tables", TABLES, NULL);
+    ask(v, "Open a Table", "open-table", "Tables", TABLES);
+}
+
+static void ask_save_as(viewer *v, const char *name);
+
+/* A name that this tab cannot save is asked for once more, with an ending that it can. */
+static void save(viewer *v, const char *action, const char *path) {
+    const viewer_saving *saving = viewer_saving_now(v);
+    viewer_act_text(v, action, path);
+    if (!viewer_saving_takes(saving, path)) {
+        char *base = g_path_get_basename(path);
+        char *name = g_strconcat(base, strrchr(saving->name, '.'), NULL);
+        ask_save_as(v, name);
+        g_free(name);
+        g_free(base);
+    }
+}
+
+static void ask_save_as(viewer *v, const char *name) {
+    const viewer_saving *saving = viewer_saving_now(v);
+    const question what = {v, save, "save"};
+    ask_and(&what, saving->title, GTK_FILE_CHOOSER_ACTION_SAVE, "What this tab saves",
+            saving->patterns, name);
 }
 
 void viewer_exchange_ask_save(viewer *v) {
-    const viewer_saving *saving = viewer_saving_now(v);
-    ask(v, saving->title, "save", GTK_FILE_CHOOSER_ACTION_SAVE, "What this tab saves",
-        saving->patterns, saving->name);
+    ask_save_as(v, viewer_saving_now(v)->name);
 }
 
 void viewer_exchange_ask_mission(viewer *v, int which) {
     static const char *const patterns[] = {"*.yaml", "*.yml", NULL};
-    ask(v, "Open a Mission", which == 0 ? "mission" : "versus", GTK_FILE_CHOOSER_ACTION_OPEN,
-        "Missions", patterns, NULL);
+    ask(v, "Open a Mission", which == 0 ? "mission" : "versus", "Missions", patterns);
 }
 
 char *viewer_exchange_force_command(const viewer *v) {

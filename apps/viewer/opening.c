@@ -37,6 +37,10 @@ static void add_table(opening_job *job) {
     if (viewer_session_add_table(v->session, entry)) {
         v->table_shown = (int)v->session->table_count - 1;
     }
+    int tab = gtk_notebook_get_current_page(v->tabs);
+    if (tab != TAB_GRAPHICS && tab != TAB_COMPARE) {
+        gtk_notebook_set_current_page(v->tabs, TAB_GRAPHICS); /* where it is seen */
+    }
 }
 
 static void read_next(viewer *v);

@@ -365,14 +365,22 @@ static char *command_of(const viewer *v) {
     return viewer_setup_command(v->session->engine->setup, "table", extra, massive ? 8 : 6);
 }
 
+bool viewer_check_engine(viewer *v) {
+    const viewer_engine *engine = v->session->engine;
+    if (engine != NULL && engine->prepared != NULL) {
+        return true;
+    }
+    viewer_complain_of_model(v, engine != NULL && engine->problem.text[0] != '\0'
+                                    ? engine->problem.text
+                                    : VIEWER_NO_SPACECRAFT);
+    return false;
+}
+
 void viewer_request_table(viewer *v) {
     viewer_engine *engine = v->session->engine;
     srp_grid grid;
     srp_error error;
-    if (engine == NULL || engine->prepared == NULL) {
-        viewer_complain_of_model(v, engine != NULL && engine->problem.text[0] != '\0'
-                                        ? engine->problem.text
-                                        : "There is no spacecraft yet: open one.");
+    if (!viewer_check_engine(v)) {
         return;
     }
     if (srp_grid_from_steps(v->az_step_deg, v->el_step_deg, &grid, &error) != SRP_OK) {

@@ -56,6 +56,8 @@ bool viewer_requests_busy(const viewer *v);
 void viewer_request_engine(viewer *v, bool reload);
 /* The Sun has moved. */
 void viewer_request_force(viewer *v);
+/* Whether there is something to compute with; says why not. */
+bool viewer_check_engine(viewer *v);
 /* A table of the engine, with the steps of the viewer. */
 void viewer_request_table(viewer *v);
 void viewer_cancel_table(viewer *v);

@@ -98,7 +98,7 @@ static const char *tab_words(const viewer *v, int tab) {
     return gtk_notebook_get_tab_label_text(v->tabs, gtk_notebook_get_nth_page(v->tabs, tab));
 }
 
-static bool can_save(const viewer_saving *saving, const char *path) {
+bool viewer_saving_takes(const viewer_saving *saving, const char *path) {
     bool can = false;
     for (size_t i = 0; saving->patterns[i] != NULL; ++i) {
         can = can || cli_ends_with(path, saving->patterns[i] + 1);
@@ -113,7 +113,7 @@ static void refuse(viewer *v, const char *path) {
                            tab_words(v, gtk_notebook_get_current_page(v->tabs)),
                            viewer_saving_now(v)->what);
     for (int i = 0; i < gtk_notebook_get_n_pages(v->tabs); ++i) {
-        if (can_save(&SAVINGS[i], path)) {
+        if (viewer_saving_takes(&SAVINGS[i], path)) {
             g_string_append_printf(text, " %s saves %s.", tab_words(v, i), SAVINGS[i].what);
         }
     }
@@ -128,7 +128,7 @@ const viewer_saving *viewer_saving_now(const viewer *v) {
 void viewer_save(viewer *v, const char *path) {
     const viewer_saving *saving = viewer_saving_now(v);
     viewer_words problem = {""};
-    if (!can_save(saving, path)) {
+    if (!viewer_saving_takes(saving, path)) {
         refuse(v, path);
         return;
     }

@@ -15,6 +15,8 @@ typedef struct viewer_saving {
 
 /* Of the tab that is shown. */
 const viewer_saving *viewer_saving_now(const viewer *v);
+/* Does it save files that end so? */
+bool viewer_saving_takes(const viewer_saving *saving, const char *path);
 /* Saves what the tab shows, or says what it can save. */
 void viewer_save(viewer *v, const char *path);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The window: header, spacecraft, method, tabs, and a line for what there is to say. */
 #include "actions.h"
+#include "dropping.h"
 #include "opening.h"
 #include "recent.h"
 #include "state.h"
@@ -117,7 +118,7 @@ static GtkWidget *make_message(frame *f) {
     gtk_box_append(GTK_BOX(buttons), dismiss);
     gtk_box_append(GTK_BOX(column), buttons);
     gtk_box_append(GTK_BOX(box), column);
-    gtk_widget_add_css_class(box, "message");
+    gtk_widget_add_css_class(box, "banner");
     gtk_widget_set_visible(box, FALSE);
     f->bar = box;
     return box;
@@ -168,19 +169,6 @@ static gboolean on_close(GtkWindow *window, gpointer user) {
     return FALSE;
 }
 
-static gboolean on_drop(GtkDropTarget *target, const GValue *value, double x, double y,
-                        gpointer user) {
-    frame *f = user;
-    (void)target, (void)x, (void)y;
-    char *path = g_file_get_path(g_value_get_object(value));
-    if (path == NULL) {
-        return FALSE;
-    }
-    viewer_act_text(f->v, srp_table_format_of(path) != NULL ? "open-table" : "open", path);
-    g_free(path);
-    return TRUE;
-}
-
 /* ---- together ---- */
 
 static void add_tab(viewer *v, const char *label, GtkWidget *child) {
@@ -224,7 +212,5 @@ void viewer_build_window(viewer *v) {
     gtk_window_set_child(v->window, box);
     viewer_listen(v, on_changed, f);
     g_signal_connect(v->window, "close-request", G_CALLBACK(on_close), f);
-    GtkDropTarget *drop = gtk_drop_target_new(G_TYPE_FILE, GDK_ACTION_COPY);
-    g_signal_connect(drop, "drop", G_CALLBACK(on_drop), f);
-    gtk_widget_add_controller(GTK_WIDGET(v->window), GTK_EVENT_CONTROLLER(drop));
+    viewer_drop_begin(v);
 }

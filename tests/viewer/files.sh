@@ -181,4 +181,36 @@ view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
 kill "$writer" 2> /dev/null
 said=$(values message | tr -d '\n')
 [ -z "$said" ] || fail "old words: $said"
+
+# What is dropped on the window is what its ending says; the spacecraft stays when it is nothing of use.
+echo 'not a model' > "$scratch/notes.md"
+mkdir "$scratch/a folder"
+cp "$scratch/small.nc" "$scratch/BIG LETTERS.NC"
+printf 'newmtl nobody\nrho_s 0.25\nrho_d 0.125\n' > "$scratch/nobody.mtl"
+cat > "$scratch/steps" << END
+wait
+drop $scratch/notes.md
+expect message notes.md: expected a spacecraft (.obj)
+drop '$scratch/a folder' https://example.org/x
+expect message a folder: expected
+expect message example.org/x: expected
+drop $scratch/nobody.mtl
+expect message has optics for none
+expect model-name box-wing.obj
+drop '$scratch/BIG LETTERS.NC' $scratch/small.txt
+wait
+expect table 2: small.txt
+save $scratch/dropped.nc
+expect message Saved
+drop $ROOT/models/cube.obj $scratch/nobody.mtl $ROOT/models/dish.obj
+expect message dish.obj: another file of its kind
+wait
+expect model-name cube.obj
+drop 'no end
+expect message quote
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+[ -s "$scratch/dropped.nc" ] || fail 'a dropped table is not shown'
+printf '%s\n' copy-command 'expect message no spacecraft' > "$scratch/steps"
+view 0 --actions "$scratch/steps"
 judge
