@@ -16,6 +16,7 @@ typedef struct viewer_orbit {
         *value[4]; /* (count each) [m] radial, along, cross, distance of the second from the first;
                       of one mission alone: its position, and its distance from the centre */
     bool is_difference;
+    bool is_identical; /* the differences are 0 everywhere */
     char summary[400];
     double seconds; /* it took */
 } viewer_orbit;

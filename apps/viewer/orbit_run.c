@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include "command.h"
 #include "orbit.h"
+#include "text_file.h"
 #include "track.h"
 
 #include <math.h>
@@ -118,7 +120,7 @@ static bool run_one(orbit_job *job, const srp_mission *mission, cli_track *track
 /* Turns tracks into what is shown. */
 static bool make_values(orbit_job *job, cli_track track[2]) {
     viewer_orbit *made = &job->made;
-    made->is_difference = job->parts == 2;
+    made->is_difference = made->is_identical = job->parts == 2;
     made->count = track[0].count;
     made->t = calloc(made->count + 1, sizeof *made->t);
     bool good = made->t != NULL;
@@ -133,7 +135,9 @@ static bool make_values(orbit_job *job, cli_track track[2]) {
         made->value[0][i] = d.x;
         made->value[1][i] = d.y;
         made->value[2][i] = d.z;
-        made->value[3][i] = srp_vec3_norm(d);
+        made->value[3][i] =
+            made->is_difference ? cli_track_distance(&track[0], &track[1], i) : srp_vec3_norm(d);
+        made->is_identical = made->is_identical && made->value[3][i] == 0.0;
     }
     return good;
 }
@@ -237,25 +241,28 @@ void viewer_orbit_cancel(viewer *v) {
 
 /* ---- out ---- */
 
+static void write_rows(FILE *out, const viewer_orbit *orbit) {
+    cli_rows_begin(out, orbit->is_difference);
+    for (size_t i = 0; i < orbit->count; ++i) {
+        cli_rows_put(out, orbit->t[i],
+                     srp_vec3_make(orbit->value[0][i], orbit->value[1][i], orbit->value[2][i]),
+                     orbit->value[3][i]);
+    }
+}
+
 bool viewer_orbit_save(viewer *v, const char *path, viewer_words *problem) {
     const viewer_orbit *orbit = &keeper_of(v)->orbit;
+    cli_text_file file;
     if (orbit->count == 0) {
         viewer_words_add(problem, "No mission has run yet.");
         return false;
     }
-    GString *text =
-        g_string_new(orbit->is_difference ? "elapsed_s,radial_m,along_m,cross_m,distance_m\n"
-                                          : "elapsed_s,x_m,y_m,z_m,distance_m\n");
-    for (size_t i = 0; i < orbit->count; ++i) {
-        g_string_append_printf(text, "%.17g,%.9g,%.9g,%.9g,%.9g\n", orbit->t[i], orbit->value[0][i],
-                               orbit->value[1][i], orbit->value[2][i], orbit->value[3][i]);
+    viewer_words_listen(problem);
+    int status = cli_text_file_begin(&file, path);
+    if (status == CLI_DONE) {
+        write_rows(file.out, orbit);
+        status = cli_text_file_end(&file);
     }
-    GError *error = NULL;
-    bool good = g_file_set_contents(path, text->str, (gssize)text->len, &error);
-    if (!good) {
-        viewer_words_add(problem, error->message);
-        g_error_free(error);
-    }
-    g_string_free(text, TRUE);
-    return good;
+    viewer_words_listen(NULL);
+    return status == CLI_DONE;
 }

@@ -115,7 +115,7 @@ static void draw(GtkDrawingArea *area, cairo_t *cr, int width, int height, gpoin
     double end = orbit->t[orbit->count - 1], size = fmax(fabs(f.low), fabs(f.high));
     double time = end > 2.0 * 86400.0 ? 86400.0 : end > 7200.0 ? 3600.0 : 1.0;
     double length = size > 5e3 ? 1e3 : 1.0;
-    double room = fmax(0.04 * (f.high - f.low), 1e-12 * (size > 0.0 ? size : 1.0));
+    double room = orbit->is_identical ? 1.0 : fmax(0.04 * (f.high - f.low), 1e-12 * size);
     f.low = (f.low - room) / length;
     f.high = (f.high + room) / length;
     f.t_end = end / time;
@@ -130,6 +130,11 @@ static void draw(GtkDrawingArea *area, cairo_t *cr, int width, int height, gpoin
                                : "s",
               length == 1e3 ? "km" : "m");
     draw_curves(&f, orbit, time, length);
+    if (orbit->is_identical) {
+        gdk_cairo_set_source_rgba(cr, &f.ink);
+        put_text(&f, f.left + 0.5 * f.width, y_of(&f, 0.0) - 8.0, 0.5,
+                 "0 m everywhere: the orbits are identical");
+    }
 }
 
 /* ---- what changes ---- */
@@ -160,8 +165,10 @@ static void show_result(pane *p, const viewer_orbit *orbit) {
     char *text = NULL, last[200] = "";
     if (orbit->count > 0) {
         size_t end = orbit->count - 1;
-        text = g_strdup_printf("%s%s%s: %s", orbit->name[0], orbit->is_difference ? " → " : "",
-                               orbit->is_difference ? orbit->name[1] : "", orbit->summary);
+        text = g_strdup_printf("%s%s%s: %s%s", orbit->name[0], orbit->is_difference ? " → " : "",
+                               orbit->is_difference ? orbit->name[1] : "",
+                               orbit->is_identical ? "the orbits are identical; " : "",
+                               orbit->summary);
         snprintf(last, sizeof last, "at the end: %.9g, %.9g, %.9g m; distance %.9g m",
                  orbit->value[0][end], orbit->value[1][end], orbit->value[2][end],
                  orbit->value[3][end]);
