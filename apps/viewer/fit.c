@@ -143,8 +143,9 @@ static void fit_deliver(viewer_job *base) {
                                       : viewer_complain(v, job->problem.text);
     } else {
         char name[256];
-        snprintf(name, sizeof name, "%zu: %zu plates fitted to %.150s", v->session->table_count + 1,
-                 job->fit.count, job->from->name);
+        snprintf(name, sizeof name, "%zu: %zu plate%s fitted to %.150s",
+                 v->session->table_count + 1, job->fit.count, job->fit.count == 1 ? "" : "s",
+                 job->from->name);
         keep_plates(job);
         viewer_table table = {job->table, viewer_text_copy(name), NULL, NULL, 0};
         job->table = NULL;

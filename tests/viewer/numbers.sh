@@ -122,6 +122,9 @@ END
     numbers_of fit
     cat << END
 save $scratch/five.plates
+fit 1
+wait
+expect compare-b 1 plate fitted
 tab graphics
 show-table 1
 method exact
