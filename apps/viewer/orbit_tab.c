@@ -163,12 +163,15 @@ static void show_files(pane *p, const viewer_orbit *orbit) {
 
 static void show_result(pane *p, const viewer_orbit *orbit) {
     char *text = NULL, last[200] = "";
+    if (orbit->path[0] != NULL) {
+        bool two = orbit->path[1] != NULL;
+        text = g_strdup_printf(
+            "%s%s%s: %s%s", orbit->name[0], two ? " → " : "", two ? orbit->name[1] : "",
+            orbit->count > 0 && orbit->is_identical ? "the orbits are identical; " : "",
+            orbit->count > 0 ? orbit->summary : "no result yet");
+    }
     if (orbit->count > 0) {
         size_t end = orbit->count - 1;
-        text = g_strdup_printf("%s%s%s: %s%s", orbit->name[0], orbit->is_difference ? " → " : "",
-                               orbit->is_difference ? orbit->name[1] : "",
-                               orbit->is_identical ? "the orbits are identical; " : "",
-                               orbit->summary);
         snprintf(last, sizeof last, "at the end: %.9g, %.9g, %.9g m; distance %.9g m",
                  orbit->value[0][end], orbit->value[1][end], orbit->value[2][end],
                  orbit->value[3][end]);

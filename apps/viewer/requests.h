@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What is computed beside the window: engines and forces at once, tables and what else takes long
- * on a second thread, and what is made of tables on a third. */
+ * on a second thread, and what is made of tables, or read, on a third. */
 #ifndef SRP_VIEWER_REQUESTS_H
 #define SRP_VIEWER_REQUESTS_H
 
@@ -35,11 +35,13 @@ typedef struct viewer_progress {
 
 enum { SLOT_ENGINE, SLOT_FORCE };                      /* of `live` */
 enum { SLOT_TABLE, SLOT_ORBIT, SLOT_FIT, SLOT_PROBE }; /* of `batch` */
-enum { SLOT_COMPARISON, SLOT_REOPTIC, SLOT_OPENING };  /* of `tables` */
+/* Of `tables`; SLOT_MISSION: the first mission, and SLOT_VERSUS: the second. */
+enum { SLOT_COMPARISON, SLOT_REOPTIC, SLOT_OPENING, SLOT_MISSION, SLOT_VERSUS };
 
 typedef struct viewer_requests {
     viewer_worker *live, *batch;
-    viewer_worker *tables; /* what is done with tables, and takes seconds at most */
+    viewer_worker *tables; /* what is done with tables, and missions that are read: takes seconds
+                              at most */
     viewer_progress table;
     viewer_probe probe;
     GQueue to_open;          /* paths of tables, each freed by free() */

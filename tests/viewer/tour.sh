@@ -188,9 +188,9 @@ expect message viewer.nc: Orbit saves the rows of the orbit (.csv). Visualize Gr
 save $scratch/viewer.csv
 screenshot $SHOTS/10-orbit.png
 expect message Saved
-mission $scratch/no-such.yaml
+mission $ROOT/models/missions/geo-cannonball.yaml
 print message
-propagate
+mission $scratch/no-such.yaml
 wait
 expect message no-such.yaml
 END
