@@ -3,14 +3,20 @@
 
 #include "recent.h"
 
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 
 static const char WINDOW[] = "window", METHOD[] = "method", LIGHT[] = "spacecraft",
                   TABLE[] = "table";
 
+/* GLib takes a relative $XDG_CONFIG_HOME, too, which the specification has ignored. */
 static char *file_name(void) {
-    return g_build_filename(g_get_user_config_dir(), "srpcore", "viewer.ini", NULL);
+    const char *home = g_getenv("XDG_CONFIG_HOME");
+    if (home != NULL && g_path_is_absolute(home)) {
+        return g_build_filename(home, "srpcore", "viewer.ini", NULL);
+    }
+    return g_build_filename(g_get_home_dir(), ".config", "srpcore", "viewer.ini", NULL);
 }
 
 /* ---- reading ---- */
@@ -71,9 +77,21 @@ void viewer_state_load(viewer *v) {
 
 /* ---- writing ---- */
 
+static void write_file(GKeyFile *file, const char *name) {
+    GError *error = NULL;
+    char *directory = g_path_get_dirname(name);
+    if (g_mkdir_with_parents(directory, 0700) != 0) {
+        g_printerr("srp-viewer: nothing is remembered: %s: %s\n", directory, g_strerror(errno));
+    } else if (!g_key_file_save_to_file(file, name, &error)) {
+        g_printerr("srp-viewer: nothing is remembered: %s\n", error->message);
+        g_error_free(error);
+    }
+    g_free(directory);
+}
+
 void viewer_state_save(viewer *v) {
     GKeyFile *file = g_key_file_new();
-    char *name = file_name(), *directory = g_path_get_dirname(name);
+    char *name = file_name();
     int width, height;
     gboolean dark;
     (void)g_key_file_load_from_file(file, name, G_KEY_FILE_NONE, NULL);
@@ -99,10 +117,7 @@ void viewer_state_save(viewer *v) {
     g_key_file_set_double(file, TABLE, "az-step", v->az_step_deg);
     g_key_file_set_double(file, TABLE, "el-step", v->el_step_deg);
     viewer_recent_save(v, file);
-    if (g_mkdir_with_parents(directory, 0700) == 0) {
-        (void)g_key_file_save_to_file(file, name, NULL);
-    }
-    g_free(directory);
+    write_file(file, name);
     g_free(name);
     g_key_file_unref(file);
 }

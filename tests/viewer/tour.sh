@@ -236,6 +236,17 @@ for model in dish box-wing cube; do
     grep -q "^files=.*models/$model.obj;" "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail "$model is forgotten"
 done
 grep -q '^files=[^;]*models/dish.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the newest file is not first'
+# Settings that cannot be kept are told of; a relative place is none.
+: > "$scratch/file"
+echo wait > "$scratch/steps"
+XDG_CONFIG_HOME=$scratch/file/below view 0 --remember --actions "$scratch/steps"
+[ "$(grep -c "nothing is remembered: $scratch/file/below/srpcore: " "$scratch/err")" -eq 1 ] || fail 'settings are lost without a word'
+mkdir -p "$scratch/config/none/srpcore/viewer.ini"
+XDG_CONFIG_HOME=$scratch/config/none view 0 --remember --actions "$scratch/steps"
+[ "$(grep -c "nothing is remembered: .*viewer.ini" "$scratch/err")" -eq 1 ] || fail 'settings are lost without a word'
+(cd "$scratch" && XDG_CONFIG_HOME=relative view 0 --remember --actions steps && exit "$failures") || fail 'a relative XDG_CONFIG_HOME'
+[ ! -e "$scratch/relative/srpcore" ] || fail 'a relative XDG_CONFIG_HOME is taken'
+[ -s "$HOME/.config/srpcore/viewer.ini" ] || fail 'without XDG_CONFIG_HOME ~/.config is not taken'
 printf 'not a key file\n\0\n' > "$XDG_CONFIG_HOME/srpcore/viewer.ini"
 printf 'wait\nexpect method exact\n' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps" "$ROOT/models/cube.obj"
