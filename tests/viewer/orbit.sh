@@ -144,7 +144,7 @@ save $scratch/no-such/x.csv
 expect message no-such/x.csv: cannot write: No such file
 END
 view 0 --actions "$scratch/steps"
-[ -L "$scratch/link.csv" ] && [ -s "$scratch/target.csv" ] || fail 'the link is replaced'
+{ [ -L "$scratch/link.csv" ] && [ -s "$scratch/target.csv" ]; } || fail 'the link is replaced'
 [ -L "$scratch/full.csv" ] || fail 'the link to /dev/full is replaced'
 "$CHECK" "$SHOTS/orbit-identical.png" 1280 800 540 528 260 18 20 0.99 || fail 'the picture does not say that they are identical'
 judge
