@@ -252,7 +252,7 @@ static void on_changed(void *user, unsigned what) {
         refresh(p);
     }
     if ((what & CHANGED_SETUP) != 0) {
-        gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), p->v->plates_to_fit);
+        ui_number_show(p->plates, p->v->plates_to_fit);
     }
 }
 
@@ -314,21 +314,23 @@ static void on_fit(GtkButton *button, gpointer user) {
     viewer_act(p->v, "fit", g_variant_new_int32((gint32)p->v->plates_to_fit));
 }
 
-static void on_plates(GtkSpinButton *plates, gpointer user) {
-    ((pane *)user)->v->plates_to_fit = gtk_spin_button_get_value_as_int(plates);
+static void on_plates(GtkWidget *plates, void *user) {
+    viewer *v = ((pane *)user)->v;
+    v->plates_to_fit = (int)ui_number_value(plates);
+    viewer_complain_no_more(v);
+    ui_number_show(plates, v->plates_to_fit);
 }
 
 /* How many, and the button that fits them. */
 static GtkWidget *make_fit(pane *p) {
-    p->plates = gtk_spin_button_new_with_range(1.0, CLI_NORMALS_MAX, 1.0);
-    gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), p->v->plates_to_fit);
+    const ui_range counts = {1.0, CLI_NORMALS_MAX, 1.0, true};
+    p->plates = ui_number(p->v, "plates-count", "Plates to fit", counts, on_plates, p);
+    ui_number_show(p->plates, p->v->plates_to_fit);
     gtk_editable_set_width_chars(GTK_EDITABLE(p->plates), 2);
-    gtk_widget_set_name(p->plates, "plates-count");
     gtk_widget_set_tooltip_text(p->plates, "How many plates");
-    gtk_widget_set_valign(p->plates, GTK_ALIGN_CENTER);
-    g_signal_connect(p->plates, "value-changed", G_CALLBACK(on_plates), p);
     p->fit = gtk_button_new_with_mnemonic("_Fit Plates to A");
     gtk_widget_set_name(p->fit, "fit");
+    ui_name(p->fit, "Fit Plates to A");
     gtk_widget_set_valign(p->fit, GTK_ALIGN_CENTER);
     gtk_widget_set_tooltip_text(p->fit,
                                 "Find the N-plate model that comes nearest to A; it becomes B, "

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "ui.h"
 
+#include "numbers.h"
 #include "wrap.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -157,9 +159,14 @@ static void send_text(GtkWidget *entry) {
     }
     char *words =
         target->key != NULL ? g_strdup_printf("%s=%s", target->key, text) : g_strdup(text);
-    g_free(target->shown);
-    target->shown = g_strdup(text);
+    char *before = g_steal_pointer(&target->shown);
+    g_object_ref(entry);
     viewer_act_text(target->v, target->action, words);
+    if (target->shown == NULL) { /* refused, or nobody says what it has become */
+        ui_entry_show(entry, before);
+    }
+    g_object_unref(entry);
+    g_free(before);
     g_free(words);
 }
 
@@ -198,8 +205,133 @@ void ui_entry_show(GtkWidget *entry, const char *text) {
     if (g_strcmp0(text, target->shown) != 0) {
         g_free(target->shown);
         target->shown = g_strdup(text);
-        gtk_editable_set_text(GTK_EDITABLE(entry), text);
+        if (strcmp(text, gtk_editable_get_text(GTK_EDITABLE(entry))) != 0) {
+            gtk_editable_set_text(GTK_EDITABLE(entry), text);
+        }
     }
+}
+
+/* ---- numbers ---- */
+
+typedef struct number {
+    viewer *v;
+    char *words;
+    ui_range range;
+    ui_number_changed changed;
+    void *user;
+    double value; /* what the session has */
+    bool known;   /* false: it is being changed */
+    bool quiet;
+} number;
+
+static void free_number(gpointer user) {
+    number *n = user;
+    g_free(n->words);
+    g_free(n);
+}
+
+static number *number_of(gpointer spin) {
+    return g_object_get_data(G_OBJECT(spin), "number");
+}
+
+enum { DIGITS_SIZE = G_ASCII_DTOSTR_BUF_SIZE };
+
+/* As many digits as tell what it is, but for what arithmetic leaves at the end. */
+static const char *digits_of(double value, char buffer[DIGITS_SIZE]) {
+    return g_ascii_formatd(buffer, DIGITS_SIZE, "%.10g", value);
+}
+
+static gboolean on_number_output(GtkSpinButton *spin, gpointer user) {
+    char text[DIGITS_SIZE];
+    (void)user;
+    digits_of(gtk_spin_button_get_value(spin), text);
+    if (strcmp(text, gtk_editable_get_text(GTK_EDITABLE(spin))) != 0) {
+        gtk_editable_set_text(GTK_EDITABLE(spin), text);
+    }
+    return TRUE;
+}
+
+static void complain_of_number(const number *n, const char *text) {
+    char least[DIGITS_SIZE], most[DIGITS_SIZE];
+    char *line = g_strdup_printf("%s %s: expected a %s from %s to %s%s", n->words, text,
+                                 n->range.whole ? "whole number" : "number",
+                                 digits_of(n->range.least, least), digits_of(n->range.most, most),
+                                 strchr(text, ',') != NULL ? ", with a decimal point" : "");
+    viewer_complain(n->v, line);
+    g_free(line);
+}
+
+static int on_number_input(GtkSpinButton *spin, double *value, gpointer user) {
+    const number *n = user;
+    const char *text = gtk_editable_get_text(GTK_EDITABLE(spin));
+    char shown[DIGITS_SIZE];
+    double now = gtk_spin_button_get_value(spin);
+    *value = now;
+    if (strcmp(text, digits_of(now, shown)) == 0) {
+        return TRUE; /* with the digits that are not shown */
+    }
+    if (!cli_read_number(text, value) || *value < n->range.least || *value > n->range.most ||
+        (n->range.whole && *value != floor(*value))) {
+        complain_of_number(n, text);
+        *value = now;
+        return GTK_INPUT_ERROR;
+    }
+    return TRUE;
+}
+
+static void on_number_changed(GtkSpinButton *spin, gpointer user) {
+    number *n = user;
+    char was[DIGITS_SIZE], is[DIGITS_SIZE];
+    double before = n->value;
+    digits_of(gtk_spin_button_get_value(spin), is);
+    if (n->quiet || strcmp(digits_of(before, was), is) == 0 || n->v->window == NULL) {
+        return;
+    }
+    g_object_ref(spin);
+    n->value = g_ascii_strtod(is, NULL);
+    n->known = false;
+    n->changed(GTK_WIDGET(spin), n->user);
+    if (!n->known) { /* refused */
+        ui_number_show(GTK_WIDGET(spin), before);
+    }
+    g_object_unref(spin);
+}
+
+GtkWidget *ui_number(viewer *v, const char *name, const char *words, ui_range range,
+                     ui_number_changed changed, void *user) {
+    GtkWidget *widget = gtk_spin_button_new_with_range(range.least, range.most, range.step);
+    GtkSpinButton *spin = GTK_SPIN_BUTTON(widget);
+    number *n = g_new0(number, 1);
+    *n = (number){v, g_strdup(words), range, changed, user, range.least, true, false};
+    g_object_set_data_full(G_OBJECT(spin), "number", n, free_number);
+    gtk_widget_set_name(widget, name);
+    gtk_widget_set_valign(widget, GTK_ALIGN_CENTER);
+    ui_name(widget, words);
+    gtk_spin_button_set_numeric(spin, FALSE); /* it would leave out what it does not know */
+    gtk_spin_button_set_update_policy(spin, GTK_UPDATE_IF_VALID);
+    g_signal_connect(spin, "input", G_CALLBACK(on_number_input), n);
+    g_signal_connect(spin, "output", G_CALLBACK(on_number_output), n);
+    g_signal_connect(spin, "value-changed", G_CALLBACK(on_number_changed), n);
+    gtk_spin_button_update(spin);
+    return widget;
+}
+
+double ui_number_value(GtkWidget *widget) {
+    return number_of(widget)->value;
+}
+
+/* What the user is typing stays while the number is still the same. */
+void ui_number_show(GtkWidget *widget, double value) {
+    number *n = number_of(widget);
+    if (n->known && value == n->value) {
+        return;
+    }
+    n->known = true;
+    n->value = value;
+    n->quiet = true;
+    gtk_adjustment_set_value(gtk_spin_button_get_adjustment(GTK_SPIN_BUTTON(widget)), value);
+    on_number_output(GTK_SPIN_BUTTON(widget), NULL);
+    n->quiet = false;
 }
 
 /* ---- the rest ---- */

@@ -34,10 +34,25 @@ GtkWidget *ui_popover(GtkWidget *child, int height);
 /* A small "i" that explains. */
 GtkWidget *ui_explanation(const char *heading, const char *text);
 /* An entry `width` characters wide that sends its text to `action` as "KEY=text" (key NULL: the
- * text alone) when it is activated or left. */
+ * text alone) when it is activated or left. The action lets panes show what it has made of it: a
+ * text that was refused gives way to the one before. */
 GtkWidget *ui_entry(viewer *v, const char *name, int width, const char *action, const char *key);
 /* Sets the text unless the user is typing in it. */
 void ui_entry_show(GtkWidget *entry, const char *text);
+/* What a number can be, and by how much its buttons change it. */
+typedef struct ui_range {
+    double least, most, step;
+    bool whole;
+} ui_range;
+typedef void (*ui_number_changed)(GtkWidget *number, void *user);
+/* A number with buttons; screen readers and complaints call it `words`. A text that is no number of
+ * the range is complained of, and gives way to the number before; so does a number that `changed`
+ * does not show. */
+GtkWidget *ui_number(viewer *v, const char *name, const char *words, ui_range range,
+                     ui_number_changed changed, void *user);
+/* As the user gave it: what another number is rounded to in order to be shown is not lost. */
+double ui_number_value(GtkWidget *number);
+void ui_number_show(GtkWidget *number, double value);
 /* A drop-down of words, which are cut where there is no room for them. `chosen` has the signature
  * of notify signals. */
 GtkWidget *ui_choice(const char *name, GCallback chosen, gpointer user);
