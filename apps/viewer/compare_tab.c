@@ -277,6 +277,7 @@ static GtkWidget *make_block(pane *p, int first, int count) {
     static const char *const rows[COLUMNS] = {"MSE [m⁴]",     "RMS [m²]", "Mean [m²]",
                                               "Largest [m²]", "az [°]",   "el [°]"};
     static const char *const words[COLUMNS] = {"mse", "rms", "mean", "largest", "az", "el"};
+    static const char *const of[3] = {"B − A, x", "B − A, y", "B − A, z"};
     GtkWidget *grid = gtk_grid_new();
     gtk_grid_set_column_spacing(GTK_GRID(grid), 8);
     gtk_grid_attach(GTK_GRID(grid), small_heading("B − A", 0.0f), 0, 0, 1, 1);
@@ -287,9 +288,10 @@ static GtkWidget *make_block(pane *p, int first, int count) {
         int r = first + k;
         gtk_grid_attach(GTK_GRID(grid), small_heading(heads[r], 1.0f), 1 + k, 0, 1, 1);
         for (int c = 0; c < COLUMNS; ++c) {
-            char name[48];
+            char name[48], spoken[64];
             snprintf(name, sizeof name, "%s-%s", CLI_DIFFERENCE_NAME[r], words[c]);
-            p->number[r][c] = ui_value(name);
+            snprintf(spoken, sizeof spoken, "%s of %s", rows[c], r < 3 ? of[r] : heads[r]);
+            p->number[r][c] = ui_value(name, spoken);
             gtk_widget_set_size_request(p->number[r][c], 96, -1);
             gtk_label_set_text(GTK_LABEL(p->number[r][c]), "—");
             gtk_grid_attach(GTK_GRID(grid), p->number[r][c], 1 + k, 1 + c, 1, 1);
@@ -343,9 +345,11 @@ static GtkWidget *make_fit(pane *p) {
 
 static GtkWidget *make_strip(pane *p) {
     static const char *const words[2] = {"_A", "_B"};
+    static const char *const names[2] = {"Table A", "Table B"};
     GtkWidget *box = ui_strip(8);
     for (int k = 0; k < 2; ++k) {
         p->choice[k] = ui_choice(k == 0 ? "compare-a" : "compare-b", G_CALLBACK(on_choice), p);
+        ui_name(p->choice[k], names[k]);
         gtk_widget_set_hexpand(p->choice[k], TRUE);
         gtk_widget_set_size_request(p->choice[k], 160, -1);
         gtk_box_append(GTK_BOX(box), ui_pair(ui_mnemonic(words[k], p->choice[k]), p->choice[k]));

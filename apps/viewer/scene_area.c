@@ -497,6 +497,7 @@ GtkWidget *viewer_scene_area(viewer *v) {
     g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), a);
     gtk_widget_add_controller(a->gl, scroll);
     a->marks = gtk_drawing_area_new();
+    ui_name(a->marks, "Axes, arrows and scale of the picture");
     gtk_widget_set_can_target(a->marks, FALSE);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(a->marks), draw_marks, a, NULL);
     a->trouble = ui_label("", "dim");

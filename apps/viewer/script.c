@@ -106,8 +106,9 @@ static char *text_of(GtkWidget *widget) {
     if (GTK_IS_EDITABLE(widget)) {
         return g_strdup(gtk_editable_get_text(GTK_EDITABLE(widget)));
     }
-    if (GTK_IS_BUTTON(widget)) {
-        return g_strdup(gtk_button_get_label(GTK_BUTTON(widget)));
+    if (GTK_IS_BUTTON(widget)) { /* as it is shown */
+        GtkWidget *words = gtk_button_get_child(GTK_BUTTON(widget));
+        return g_strdup(GTK_IS_LABEL(words) ? gtk_label_get_text(GTK_LABEL(words)) : "");
     }
     if (GTK_IS_MENU_BUTTON(widget)) {
         return g_strdup(gtk_menu_button_get_label(GTK_MENU_BUTTON(widget)));

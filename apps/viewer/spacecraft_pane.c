@@ -228,9 +228,7 @@ static void show_setup(pane *p) {
         }
     }
     const char *plates = setup->model_option[MODEL_PLATES];
-    char *file = plates != NULL ? g_path_get_basename(plates) : g_strdup("_Plates…");
-    gtk_button_set_label(GTK_BUTTON(p->plates), file);
-    g_free(file);
+    ui_button_show_file(p->plates, plates, "_Plates…");
     const srp_method *method = viewer_setup_method(setup);
     gtk_widget_set_visible(p->plates, method != NULL && (method->shapes & SRP_SHAPE_PLATES) != 0);
 }
@@ -259,15 +257,14 @@ static void free_pane(gpointer user) {
 }
 
 static void make_popovers(pane *p) {
-    p->report = gtk_menu_button_new();
+    p->report = ui_menu_button("Mesh");
     p->report_words = ui_label("", NULL);
     gtk_widget_set_name(p->report, "report");
     gtk_widget_set_name(p->report_words, "report-words");
     gtk_label_set_wrap(GTK_LABEL(p->report_words), TRUE);
     gtk_label_set_max_width_chars(GTK_LABEL(p->report_words), 70);
-    gtk_menu_button_set_use_underline(GTK_MENU_BUTTON(p->report), TRUE);
     gtk_menu_button_set_popover(GTK_MENU_BUTTON(p->report), ui_popover(p->report_words, 420));
-    p->materials = gtk_menu_button_new();
+    p->materials = ui_menu_button("_Materials");
     p->material_rows = gtk_grid_new();
     gtk_grid_set_column_spacing(GTK_GRID(p->material_rows), 10);
     gtk_grid_set_row_spacing(GTK_GRID(p->material_rows), 4);
@@ -277,8 +274,6 @@ static void make_popovers(pane *p) {
     gtk_widget_set_halign(reset, GTK_ALIGN_END);
     gtk_box_append(GTK_BOX(box), p->material_rows);
     gtk_box_append(GTK_BOX(box), reset);
-    gtk_menu_button_set_label(GTK_MENU_BUTTON(p->materials), "_Materials");
-    gtk_menu_button_set_use_underline(GTK_MENU_BUTTON(p->materials), TRUE);
     gtk_menu_button_set_popover(GTK_MENU_BUTTON(p->materials), ui_popover(box, 420));
     gtk_widget_set_name(p->materials, "materials");
 }

@@ -155,7 +155,7 @@ static GtkWidget *make_strip(pane *p) {
                            "This table is of other optics than Materials has now: make one of "
                            "those from it, without tracing light again");
     gtk_widget_set_name(p->reoptic, "reoptic");
-    p->together = gtk_check_button_new_with_mnemonic("Turn toget_her");
+    p->together = ui_check("Turn toget_her");
     g_signal_connect(p->together, "toggled", G_CALLBACK(on_together), p);
     gtk_box_append(strip, ui_pair(ui_mnemonic("Step a_z [°]", p->az_step), p->az_step));
     gtk_box_append(strip, ui_pair(ui_mnemonic("e_l [°]", p->el_step), p->el_step));

@@ -20,8 +20,18 @@ static void add_classes(GtkWidget *widget, const char *classes) {
     g_strfreev(each);
 }
 
+/* GTK calls an empty label "GtkLabel". */
+static void on_label_text(GtkLabel *label, GParamSpec *spec, gpointer user) {
+    (void)spec, (void)user;
+    gtk_accessible_update_state(GTK_ACCESSIBLE(label), GTK_ACCESSIBLE_STATE_HIDDEN,
+                                gtk_label_get_text(label)[0] == '\0', -1);
+}
+
 GtkWidget *ui_label(const char *text, const char *classes) {
-    GtkWidget *label = gtk_label_new(text);
+    GtkWidget *label = gtk_label_new(NULL);
+    g_signal_connect(label, "notify::label", G_CALLBACK(on_label_text), NULL);
+    gtk_label_set_text(GTK_LABEL(label), text);
+    on_label_text(GTK_LABEL(label), NULL, NULL);
     gtk_label_set_xalign(GTK_LABEL(label), 0.0f);
     add_classes(label, classes);
     return label;
@@ -36,8 +46,18 @@ GtkWidget *ui_paragraph(const char *name, const char *classes, int width) {
     return label;
 }
 
-GtkWidget *ui_value(const char *name) {
+static void on_value_text(GtkWidget *label, GParamSpec *spec, gpointer user) {
+    (void)spec, (void)user;
+    const char *words = g_object_get_data(G_OBJECT(label), "words");
+    char *name = g_strdup_printf("%s: %s", words, gtk_label_get_text(GTK_LABEL(label)));
+    ui_name(label, name);
+    g_free(name);
+}
+
+GtkWidget *ui_value(const char *name, const char *words) {
     GtkWidget *label = ui_label("", "value");
+    g_object_set_data_full(G_OBJECT(label), "words", g_strdup(words), g_free);
+    g_signal_connect(label, "notify::label", G_CALLBACK(on_value_text), NULL);
     gtk_label_set_xalign(GTK_LABEL(label), 1.0f);
     gtk_label_set_selectable(GTK_LABEL(label), TRUE);
     gtk_widget_set_can_focus(label, FALSE);
@@ -45,18 +65,37 @@ GtkWidget *ui_value(const char *name) {
     return label;
 }
 
+static void name_unless_named(GtkWidget *widget, const char *words) {
+    GtkAccessible *accessible = GTK_ACCESSIBLE(widget);
+    if (gtk_test_accessible_has_property(accessible, GTK_ACCESSIBLE_PROPERTY_LABEL)) {
+        gtk_accessible_reset_relation(accessible, GTK_ACCESSIBLE_RELATION_LABELLED_BY);
+    } else {
+        ui_name(widget, words);
+    }
+}
+
 GtkWidget *ui_mnemonic(const char *text, GtkWidget *target) {
     GtkWidget *label = gtk_label_new_with_mnemonic(text);
     gtk_label_set_xalign(GTK_LABEL(label), 0.0f);
-    if (target != NULL) {
-        gtk_label_set_mnemonic_widget(GTK_LABEL(label), target);
-    }
+    gtk_label_set_mnemonic_widget(GTK_LABEL(label), target);
+    name_unless_named(target, gtk_label_get_text(GTK_LABEL(label)));
     return label;
 }
 
+/* ---- buttons ---- */
+
+/* GTK names a button by its text with the underscore, and by the label in it. */
+static void on_button_text(GtkWidget *button, GParamSpec *spec, gpointer user) {
+    (void)spec, (void)user;
+    gtk_accessible_reset_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL);
+}
+
 GtkWidget *ui_button(const char *text, const char *action, const char *tip) {
-    GtkWidget *button = gtk_button_new_with_mnemonic(text);
+    GtkWidget *button = gtk_button_new();
     char *full = g_strconcat("win.", action, NULL);
+    g_signal_connect(button, "notify::label", G_CALLBACK(on_button_text), NULL);
+    gtk_button_set_use_underline(GTK_BUTTON(button), TRUE);
+    gtk_button_set_label(GTK_BUTTON(button), text);
     gtk_actionable_set_action_name(GTK_ACTIONABLE(button), full);
     gtk_widget_set_name(button, action);
     gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
@@ -65,9 +104,50 @@ GtkWidget *ui_button(const char *text, const char *action, const char *tip) {
     return button;
 }
 
+void ui_button_show_file(GtkWidget *button, const char *path, const char *words) {
+    char *base = path != NULL ? g_path_get_basename(path) : g_strdup(words);
+    char *valid = g_utf8_make_valid(base, -1);
+    gtk_button_set_use_underline(GTK_BUTTON(button), path == NULL);
+    gtk_button_set_label(GTK_BUTTON(button), valid);
+    g_free(valid);
+    g_free(base);
+}
+
+static void name_without_key(GtkWidget *widget, const char *text) {
+    char **parts = g_strsplit(text, "_", -1), *plain = g_strjoinv("", parts);
+    ui_name(widget, plain);
+    g_free(plain);
+    g_strfreev(parts);
+}
+
+GtkWidget *ui_check(const char *text) {
+    GtkWidget *check = gtk_check_button_new_with_mnemonic(text);
+    name_without_key(check, text);
+    return check;
+}
+
+/* GTK names the button within, and not what is around it. */
+static void on_menu_button_text(GtkMenuButton *button, GParamSpec *spec, gpointer user) {
+    (void)spec, (void)user;
+    name_without_key(GTK_WIDGET(button), gtk_menu_button_get_label(button));
+}
+
+GtkWidget *ui_menu_button(const char *text) {
+    GtkWidget *button = gtk_menu_button_new();
+    g_signal_connect(button, "notify::label", G_CALLBACK(on_menu_button_text), NULL);
+    gtk_menu_button_set_use_underline(GTK_MENU_BUTTON(button), TRUE);
+    gtk_menu_button_set_label(GTK_MENU_BUTTON(button), text);
+    return button;
+}
+
 void ui_name(GtkWidget *widget, const char *words) {
-    gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL, words,
-                                   -1);
+    GtkAccessible *accessible = GTK_ACCESSIBLE(widget);
+    /* Not by a label as well. */
+    gtk_accessible_reset_relation(accessible, GTK_ACCESSIBLE_RELATION_LABELLED_BY);
+    gtk_accessible_update_property(accessible, GTK_ACCESSIBLE_PROPERTY_LABEL, words, -1);
+    if (GTK_IS_DROP_DOWN(widget)) { /* the button in it, too */
+        ui_name(gtk_widget_get_first_child(widget), words);
+    }
 }
 
 GtkWidget *ui_strip(int spacing) {

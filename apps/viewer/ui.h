@@ -12,15 +12,21 @@ GtkWidget *ui_box(GtkOrientation orientation, int spacing);
 GtkWidget *ui_label(const char *text, const char *classes);
 /* Text that goes on in further lines, none of them less than `width` characters wide. */
 GtkWidget *ui_paragraph(const char *name, const char *classes, int width);
-/* A number that is shown: equal widths, can be selected and copied. */
-GtkWidget *ui_value(const char *name);
-/* "_Label" that moves the focus to `target` (may be set later with
- * gtk_label_set_mnemonic_widget()). */
+/* A number that is shown: equal widths, can be selected and copied. Screen readers say `words`
+ * before it. */
+GtkWidget *ui_value(const char *name, const char *words);
+/* "_Label" that moves the focus to `target`, and names it if nothing has. */
 GtkWidget *ui_mnemonic(const char *text, GtkWidget *target);
 /* A button "_Text" that activates the action "win.name". */
 GtkWidget *ui_button(const char *text, const char *action, const char *tip);
-/* What a screen reader calls a widget that no words beside it name. */
+/* The button says the name of a file as it is, or "_Words" while there is none. */
+void ui_button_show_file(GtkWidget *button, const char *path, const char *words);
+/* A check button "_Text". */
+GtkWidget *ui_check(const char *text);
+/* What a screen reader calls a widget, whatever words it shows. */
 void ui_name(GtkWidget *widget, const char *words);
+/* A button "_Text" that opens a popover or menu; set these and other texts as GTK does. */
+GtkWidget *ui_menu_button(const char *text);
 /* A box whose children go on in further lines where the window is too narrow for them. */
 GtkWidget *ui_strip(int spacing);
 /* The same behind a title, in bold; further lines begin where the first does behind it. */

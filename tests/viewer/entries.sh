@@ -82,4 +82,10 @@ while read -r got && read -r want; do
 done < <(grep -vE '^message:' "$scratch/out")
 [ "$checked" -eq 22 ] || fail "$checked of 22 looks at what is shown"
 
+# A file is called by its name on a button, underscores and all.
+printf '0 0 1 1 0.5 0.2\n' > "$scratch/my_pl'ates _x.plates"
+printf '%s\n' wait 'method nplate' "plates $scratch/my_pl'ates _x.plates" "expect choose-plates my_pl'ates _x.plates" \
+    'plates' 'expect choose-plates Plates' > "$scratch/steps"
+view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+
 judge
