@@ -88,4 +88,24 @@ printf '%s\n' wait 'method nplate' "plates $scratch/my_pl'ates _x.plates" "expec
     'plates' 'expect choose-plates Plates' > "$scratch/steps"
 view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
 
+# The keyboard shows where it is, in the picture, too; and the picture stays.
+cat > "$scratch/steps" << END
+resize 1280 800
+wait
+focus sun
+wait
+screenshot $SHOTS/elsewhere.png
+focus scene
+wait
+screenshot $SHOTS/focus.png
+focus sun
+wait
+screenshot $SHOTS/elsewhere-again.png
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+cmp -s "$SHOTS/elsewhere.png" "$SHOTS/elsewhere-again.png" || fail 'the picture is another one after the keyboard was in it'
+"$CHECK" "$SHOTS/elsewhere.png" 1280 800 200 195 600 40 3 1 || fail 'no picture'
+if "$CHECK" "$SHOTS/elsewhere.png" 1280 800 200 195 600 40 4 1; then fail 'a frame without the keyboard'; fi
+"$CHECK" "$SHOTS/focus.png" 1280 800 200 195 600 40 4 1 || fail 'no frame where the keyboard is'
+"$CHECK" "$SHOTS/focus.png" 1280 800 20 300 800 380 20 0.985 || fail 'where the keyboard is there is no picture'
 judge
