@@ -80,7 +80,7 @@ static void set_mass(viewer *v, GVariant *parameter) {
     viewer_words problem = {""};
     bool good =
         viewer_setup_set_mass(v->session->setup, g_variant_get_string(parameter, NULL), &problem);
-    viewer_complain(v, good ? "" : problem.text);
+    good ? viewer_complain_no_more(v) : viewer_complain(v, problem.text);
     viewer_tell(v, CHANGED_SETUP | CHANGED_FORCE);
 }
 
@@ -188,11 +188,15 @@ static void turn_z(viewer *v, GVariant *parameter) {
 /* "AZ,EL" in degrees. */
 static void set_sun(viewer *v, GVariant *parameter) {
     double at[2];
-    if (!cli_read_numbers(g_variant_get_string(parameter, NULL), 2, at) || fabs(at[0]) > 360.0 ||
-        fabs(at[1]) > 90.0) {
-        viewer_complain(v, "expected AZ,EL: degrees from -360 to 360 and from -90 to 90");
+    const char *text = g_variant_get_string(parameter, NULL);
+    if (!cli_read_numbers(text, 2, at) || fabs(at[0]) > 360.0 || fabs(at[1]) > 90.0) {
+        char *line = g_strdup_printf(
+            "Sun %s: expected AZ,EL: degrees from -360 to 360 and from -90 to 90", text);
+        viewer_complain(v, line);
+        g_free(line);
         return;
     }
+    viewer_complain_no_more(v);
     v->session->attitude = viewer_attitude_for_sun(at[0], at[1]);
     sun_moved(v);
 }
@@ -291,14 +295,23 @@ static void show_tab(viewer *v, GVariant *parameter) {
 
 /* ---- tables ---- */
 
-static void set_az_step(viewer *v, GVariant *parameter) {
-    v->az_step_deg = g_variant_get_double(parameter);
+static void set_step(viewer *v, double *step, GVariant *parameter) {
+    double degrees = g_variant_get_double(parameter);
+    if (!(degrees >= VIEWER_STEP_MIN_DEG && degrees <= VIEWER_STEP_MAX_DEG)) {
+        viewer_complain(v, "expected a step from 0.5 to 90 degrees");
+        return;
+    }
+    *step = degrees;
+    viewer_complain_no_more(v);
     viewer_tell(v, CHANGED_SETUP);
 }
 
+static void set_az_step(viewer *v, GVariant *parameter) {
+    set_step(v, &v->az_step_deg, parameter);
+}
+
 static void set_el_step(viewer *v, GVariant *parameter) {
-    v->el_step_deg = g_variant_get_double(parameter);
-    viewer_tell(v, CHANGED_SETUP);
+    set_step(v, &v->el_step_deg, parameter);
 }
 
 static void compute_table(viewer *v, GVariant *parameter) {

@@ -252,7 +252,7 @@ static void on_changed(void *user, unsigned what) {
         refresh(p);
     }
     if ((what & CHANGED_SETUP) != 0) {
-        gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), p->v->plates_to_fit);
+        ui_number_show(p->plates, p->v->plates_to_fit);
     }
 }
 
@@ -277,6 +277,7 @@ static GtkWidget *make_block(pane *p, int first, int count) {
     static const char *const rows[COLUMNS] = {"MSE [m⁴]",     "RMS [m²]", "Mean [m²]",
                                               "Largest [m²]", "az [°]",   "el [°]"};
     static const char *const words[COLUMNS] = {"mse", "rms", "mean", "largest", "az", "el"};
+    static const char *const of[3] = {"B − A, x", "B − A, y", "B − A, z"};
     GtkWidget *grid = gtk_grid_new();
     gtk_grid_set_column_spacing(GTK_GRID(grid), 8);
     gtk_grid_attach(GTK_GRID(grid), small_heading("B − A", 0.0f), 0, 0, 1, 1);
@@ -287,9 +288,10 @@ static GtkWidget *make_block(pane *p, int first, int count) {
         int r = first + k;
         gtk_grid_attach(GTK_GRID(grid), small_heading(heads[r], 1.0f), 1 + k, 0, 1, 1);
         for (int c = 0; c < COLUMNS; ++c) {
-            char name[48];
+            char name[48], spoken[64];
             snprintf(name, sizeof name, "%s-%s", CLI_DIFFERENCE_NAME[r], words[c]);
-            p->number[r][c] = ui_value(name);
+            snprintf(spoken, sizeof spoken, "%s of %s", rows[c], r < 3 ? of[r] : heads[r]);
+            p->number[r][c] = ui_value(name, spoken);
             gtk_widget_set_size_request(p->number[r][c], 96, -1);
             gtk_label_set_text(GTK_LABEL(p->number[r][c]), "—");
             gtk_grid_attach(GTK_GRID(grid), p->number[r][c], 1 + k, 1 + c, 1, 1);
@@ -314,21 +316,23 @@ static void on_fit(GtkButton *button, gpointer user) {
     viewer_act(p->v, "fit", g_variant_new_int32((gint32)p->v->plates_to_fit));
 }
 
-static void on_plates(GtkSpinButton *plates, gpointer user) {
-    ((pane *)user)->v->plates_to_fit = gtk_spin_button_get_value_as_int(plates);
+static void on_plates(GtkWidget *plates, void *user) {
+    viewer *v = ((pane *)user)->v;
+    v->plates_to_fit = (int)ui_number_value(plates);
+    viewer_complain_no_more(v);
+    ui_number_show(plates, v->plates_to_fit);
 }
 
 /* How many, and the button that fits them. */
 static GtkWidget *make_fit(pane *p) {
-    p->plates = gtk_spin_button_new_with_range(1.0, CLI_NORMALS_MAX, 1.0);
-    gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), p->v->plates_to_fit);
+    const ui_range counts = {1.0, CLI_NORMALS_MAX, 1.0, true};
+    p->plates = ui_number(p->v, "plates-count", "Plates to fit", counts, on_plates, p);
+    ui_number_show(p->plates, p->v->plates_to_fit);
     gtk_editable_set_width_chars(GTK_EDITABLE(p->plates), 2);
-    gtk_widget_set_name(p->plates, "plates-count");
     gtk_widget_set_tooltip_text(p->plates, "How many plates");
-    gtk_widget_set_valign(p->plates, GTK_ALIGN_CENTER);
-    g_signal_connect(p->plates, "value-changed", G_CALLBACK(on_plates), p);
     p->fit = gtk_button_new_with_mnemonic("_Fit Plates to A");
     gtk_widget_set_name(p->fit, "fit");
+    ui_name(p->fit, "Fit Plates to A");
     gtk_widget_set_valign(p->fit, GTK_ALIGN_CENTER);
     gtk_widget_set_tooltip_text(p->fit,
                                 "Find the N-plate model that comes nearest to A; it becomes B, "
@@ -341,9 +345,11 @@ static GtkWidget *make_fit(pane *p) {
 
 static GtkWidget *make_strip(pane *p) {
     static const char *const words[2] = {"_A", "_B"};
+    static const char *const names[2] = {"Table A", "Table B"};
     GtkWidget *box = ui_strip(8);
     for (int k = 0; k < 2; ++k) {
         p->choice[k] = ui_choice(k == 0 ? "compare-a" : "compare-b", G_CALLBACK(on_choice), p);
+        ui_name(p->choice[k], names[k]);
         gtk_widget_set_hexpand(p->choice[k], TRUE);
         gtk_widget_set_size_request(p->choice[k], 160, -1);
         gtk_box_append(GTK_BOX(box), ui_pair(ui_mnemonic(words[k], p->choice[k]), p->choice[k]));

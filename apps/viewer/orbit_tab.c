@@ -254,6 +254,7 @@ GtkWidget *viewer_orbit_tab(viewer *v) {
     gtk_widget_set_margin_start(p->last, 12);
     gtk_widget_set_margin_top(p->facts, 6);
     p->plot = gtk_drawing_area_new();
+    ui_name(p->plot, "Plot of the orbit over time");
     gtk_widget_set_name(p->plot, "orbit");
     gtk_widget_set_hexpand(p->plot, TRUE);
     gtk_widget_set_vexpand(p->plot, TRUE);

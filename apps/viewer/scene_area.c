@@ -464,6 +464,15 @@ static void on_unmap(GtkWidget *widget, gpointer user) {
     a->v->picture_is_old = false;
 }
 
+/* What GTK draws around the focus makes it forget the picture. */
+static void on_state(GtkWidget *widget, GtkStateFlags before, gpointer user) {
+    const GtkStateFlags focus = GTK_STATE_FLAG_FOCUSED | GTK_STATE_FLAG_FOCUS_VISIBLE;
+    (void)user;
+    if (((gtk_widget_get_state_flags(widget) ^ before) & focus) != 0) {
+        gtk_gl_area_queue_render(GTK_GL_AREA(widget));
+    }
+}
+
 static void free_area(gpointer user) {
     area *a = user;
     g_clear_handle_id(&a->settle, g_source_remove);
@@ -490,6 +499,7 @@ GtkWidget *viewer_scene_area(viewer *v) {
     g_signal_connect(a->gl, "unrealize", G_CALLBACK(on_unrealize), a);
     g_signal_connect_after(a->gl, "map", G_CALLBACK(on_map), a);
     g_signal_connect(a->gl, "render", G_CALLBACK(on_render), a);
+    g_signal_connect(a->gl, "state-flags-changed", G_CALLBACK(on_state), a);
     g_signal_connect(a->gl, "unmap", G_CALLBACK(on_unmap), a);
     viewer_turning_add(a->gl, &CAMERA, a);
     GtkEventController *scroll =
@@ -497,6 +507,7 @@ GtkWidget *viewer_scene_area(viewer *v) {
     g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), a);
     gtk_widget_add_controller(a->gl, scroll);
     a->marks = gtk_drawing_area_new();
+    ui_name(a->marks, "Axes, arrows and scale of the picture");
     gtk_widget_set_can_target(a->marks, FALSE);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(a->marks), draw_marks, a, NULL);
     a->trouble = ui_label("", "dim");

@@ -106,8 +106,9 @@ static char *text_of(GtkWidget *widget) {
     if (GTK_IS_EDITABLE(widget)) {
         return g_strdup(gtk_editable_get_text(GTK_EDITABLE(widget)));
     }
-    if (GTK_IS_BUTTON(widget)) {
-        return g_strdup(gtk_button_get_label(GTK_BUTTON(widget)));
+    if (GTK_IS_BUTTON(widget)) { /* as it is shown */
+        GtkWidget *words = gtk_button_get_child(GTK_BUTTON(widget));
+        return g_strdup(GTK_IS_LABEL(words) ? gtk_label_get_text(GTK_LABEL(words)) : "");
     }
     if (GTK_IS_MENU_BUTTON(widget)) {
         return g_strdup(gtk_menu_button_get_label(GTK_MENU_BUTTON(widget)));
@@ -190,11 +191,26 @@ static gboolean print_place(script *s, char *words) {
 static gboolean enter_text(script *s, char *words) {
     char *text;
     GtkWidget *widget = find_widget(s, words, &text);
-    if (widget == NULL || !GTK_IS_ENTRY(widget)) {
-        return widget == NULL ? FALSE : fail(s, "expected an entry");
+    if (widget == NULL || !(GTK_IS_ENTRY(widget) || GTK_IS_SPIN_BUTTON(widget))) {
+        return widget == NULL ? FALSE : fail(s, "expected an entry or a number");
     }
     gtk_editable_set_text(GTK_EDITABLE(widget), text != NULL ? text : "");
-    g_signal_emit_by_name(widget, "activate");
+    if (GTK_IS_SPIN_BUTTON(widget)) {
+        gtk_spin_button_update(GTK_SPIN_BUTTON(widget));
+    } else {
+        g_signal_emit_by_name(widget, "activate");
+    }
+    return TRUE;
+}
+
+/* As the Tab key does. */
+static gboolean focus_widget(script *s, char *words) {
+    char *rest;
+    GtkWidget *widget = find_widget(s, words, &rest);
+    if (widget == NULL || !gtk_widget_grab_focus(widget)) {
+        return widget == NULL ? FALSE : fail(s, "the widget takes no focus");
+    }
+    gtk_window_set_focus_visible(s->v->window, TRUE);
     return TRUE;
 }
 
@@ -342,6 +358,9 @@ static gboolean step(script *s, char *line) {
     }
     if (strcmp(line, "point") == 0) {
         return move_pointer(s, rest);
+    }
+    if (strcmp(line, "focus") == 0) {
+        return focus_widget(s, rest);
     }
     if (strcmp(line, "stall") == 0) {
         g_print("stall: %.0f ms\n", 1e3 * s->stall);

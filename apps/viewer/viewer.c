@@ -54,6 +54,12 @@ void viewer_complain(viewer *v, const char *text) {
     complain(v, text, false);
 }
 
+void viewer_complain_no_more(viewer *v) {
+    if (!v->message_is_of_model) {
+        viewer_complain(v, "");
+    }
+}
+
 void viewer_complain_of_model(viewer *v, const char *text) {
     if (text[0] != '\0' || v->message_is_of_model) {
         complain(v, text, text[0] != '\0');

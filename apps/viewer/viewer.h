@@ -45,6 +45,10 @@ enum { VIEWER_CHARTS = 4 }; /* x, y, z and length of what is drawn over all dire
 typedef struct viewer viewer;
 typedef void (*viewer_listener)(void *pane, unsigned what);
 
+/* Steps of tables; finer ones take long, coarser ones are no table. */
+#define VIEWER_STEP_MIN_DEG 0.5
+#define VIEWER_STEP_MAX_DEG 90.0
+
 struct viewer {
     GtkApplication *application;
     GtkWindow *window; /* NULL until it is there, and after it is gone */
@@ -86,6 +90,9 @@ void viewer_forget_news(viewer *v);
  * command line are named as the window names them. */
 void viewer_complain(viewer *v, const char *text);
 
+/* After something was taken: what was refused before is forgotten, but not what is wrong with
+ * spacecraft or method. */
+void viewer_complain_no_more(viewer *v);
 /* The same for what is wrong with spacecraft or method: stands until the next engine. */
 void viewer_complain_of_model(viewer *v, const char *text);
 

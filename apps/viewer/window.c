@@ -35,9 +35,7 @@ static GMenuModel *main_menu(void) {
 }
 
 static GtkWidget *menu_button(const char *label, GMenuModel *menu, const char *tip) {
-    GtkWidget *button = gtk_menu_button_new();
-    gtk_menu_button_set_label(GTK_MENU_BUTTON(button), label);
-    gtk_menu_button_set_use_underline(GTK_MENU_BUTTON(button), TRUE);
+    GtkWidget *button = ui_menu_button(label);
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), menu);
     gtk_widget_set_tooltip_text(button, tip);
     return button;
@@ -174,6 +172,7 @@ static gboolean on_close(GtkWindow *window, gpointer user) {
 static void add_tab(viewer *v, const char *label, GtkWidget *child) {
     GtkWidget *words = gtk_label_new_with_mnemonic(label);
     gtk_notebook_append_page(v->tabs, child, words);
+    ui_name(gtk_widget_get_parent(words), gtk_label_get_text(GTK_LABEL(words)));
     g_object_set(gtk_notebook_get_page(v->tabs, child), "tab-expand", FALSE, NULL);
 }
 
