@@ -57,7 +57,7 @@ static void load_method(viewer *v, GKeyFile *file) {
 
 static double number(GKeyFile *file, const char *key, double otherwise) {
     double value = g_key_file_get_double(file, TABLE, key, NULL);
-    return value >= 0.01 && value <= 180.0 ? value : otherwise;
+    return value >= VIEWER_STEP_MIN_DEG && value <= VIEWER_STEP_MAX_DEG ? value : otherwise;
 }
 
 void viewer_state_load(viewer *v) {
