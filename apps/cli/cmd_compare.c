@@ -83,60 +83,6 @@ typedef struct comparison {
 
 /* ---- output ---- */
 
-static void print_rows(const cli_difference *d, double factor, const char *unit,
-                       const char *squared) {
-    char mse[32], rms[32], mean[32], largest[32];
-    snprintf(mse, sizeof mse, "MSE [%s]", squared);
-    snprintf(rms, sizeof rms, "RMS [%s]", unit);
-    snprintf(mean, sizeof mean, "mean [%s]", unit);
-    snprintf(largest, sizeof largest, "largest [%s]", unit);
-    printf("\n%-7s %15s %13s %13s %16s %8s %8s\n", "B - A", mse, rms, mean, largest, "az [deg]",
-           "el [deg]");
-    for (int c = 0; c < CLI_DIFFERENCE_COUNT; ++c) {
-        const cli_difference_row *row = &d->row[c];
-        printf("%-7s %15.6e %13.6e %13.6e %16.6e %8g %8g\n", CLI_DIFFERENCE_NAME[c],
-               factor * factor * row->mse, factor * row->rms, factor * row->mean,
-               factor * row->largest, row->az_deg, row->el_deg);
-    }
-}
-
-static void print_relative(const cli_difference *d) {
-    printf("\n%-7s %15s %13s %13s %16s\n", "/ A", "", "RMS", "mean", "largest");
-    for (int c = 0; c < CLI_DIFFERENCE_COUNT; ++c) {
-        const cli_difference_row *row = &d->row[c];
-        printf("%-7s %15s %13.6e %13.6e %16.6e\n", CLI_DIFFERENCE_NAME[c], "", row->rms / d->mean_a,
-               row->mean / d->mean_a, row->largest / d->mean_a);
-    }
-}
-
-/* [m/s^2] per [m^2]. */
-static double acceleration_factor(const comparison *c) {
-    return srp_sunlight_pressure(c->light, c->light.au) / c->mass;
-}
-
-static void print_text(const comparison *c) {
-    const char *unit = c->options->moment ? "m^3" : "m^2";
-    for (int k = 0; k < 2; ++k) {
-        char summary[256];
-        cli_table_summary(c->table[k], summary, sizeof summary);
-        const char *how = c->found.interp[k] != NULL ? c->found.scheme->name : "";
-        printf("%c          %s: %s%s%s\n", k == 0 ? 'A' : 'B', c->path[k], summary,
-               how[0] != '\0' ? ", interpolated: " : "", how);
-    }
-    printf("compared   %s [%s] from %zu directions, steps of %g x %g degrees, each by its solid "
-           "angle\n",
-           c->options->moment ? "moments" : "forces", unit, c->found.directions,
-           360.0 / (c->found.grid.az_count - 1), 180.0 / (c->found.grid.el_count - 1));
-    printf("mean size  A %.6g %s, B %.6g %s\n", c->found.difference.mean_a, unit,
-           c->found.difference.mean_b, unit);
-    print_rows(&c->found.difference, 1.0, unit, c->options->moment ? "m^6" : "m^4");
-    print_relative(&c->found.difference);
-    if (!c->options->moment && !isnan(c->mass)) {
-        printf("\nAccelerations of %g kg, 1 au from the Sun, %g W/m^2:\n", c->mass, c->light.flux);
-        print_rows(&c->found.difference, acceleration_factor(c), "m/s^2", "m^2/s^4");
-    }
-}
-
 static void write_json(const comparison *c) {
     cli_json json;
     cli_json_begin(&json, stdout);
@@ -161,7 +107,7 @@ static void write_json(const comparison *c) {
     cli_json_close_object(&json);
     if (!c->options->moment && !isnan(c->mass)) {
         cli_json_number(&json, "mass_kg", c->mass);
-        cli_json_number(&json, "m_s2_per_m2", acceleration_factor(c));
+        cli_json_number(&json, "m_s2_per_m2", cli_acceleration_of_area(c->mass, c->light));
     }
     cli_json_end(&json);
 }
@@ -232,7 +178,8 @@ static int compare(comparison *c, const cli_figure_options *figure) {
         status = draw(c, figure);
     }
     if (status == CLI_DONE) {
-        c->options->json ? write_json(c) : print_text(c);
+        c->options->json ? write_json(c)
+                         : cli_comparison_print(stdout, &c->found, c->mass, c->light);
         status = judge(c);
     }
     cli_comparison_release(&c->found);

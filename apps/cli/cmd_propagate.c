@@ -4,11 +4,11 @@
 #include "messages.h"
 #include "progress.h"
 #include "system.h"
+#include "text_file.h"
 #include "track.h"
 
 #include <srp/orbit/mission.h>
 
-#include <errno.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -303,33 +303,26 @@ static int propagate_one(const propagate_options *options, const srp_mission *mi
 
 /* ---- differences ---- */
 
-static void print_difference(FILE *out, const cli_track *a, const cli_track *b, size_t i) {
-    const srp_vec3 d = cli_track_difference(a, b, i);
-    fprintf(out, "%.17g,%.9g,%.9g,%.9g,%.9g\n", a->t[i], d.x, d.y, d.z,
-            srp_vec3_norm(srp_vec3_sub(b->r[i], a->r[i])));
-}
-
-static int cannot_write(const char *path) {
-    fprintf(stderr, "%s: cannot write: %s\n", path, strerror(errno));
-    return CLI_MACHINE_FAILED;
+static void print_differences(FILE *out, const cli_track *a, const cli_track *b) {
+    cli_rows_begin(out, true);
+    for (size_t i = 0; i < a->count; ++i) {
+        cli_rows_put(out, a->t[i], cli_track_difference(a, b, i), cli_track_distance(a, b, i));
+    }
 }
 
 static int write_differences(const propagate_options *options, const cli_track *a,
                              const cli_track *b) {
-    errno = 0;
-    FILE *out = options->output != NULL ? fopen(options->output, "w") : stdout;
-    if (out == NULL) {
-        return cannot_write(options->output);
+    cli_text_file file;
+    if (options->output == NULL) {
+        print_differences(stdout, a, b);
+        return CLI_DONE;
     }
-    fprintf(out, "elapsed_s,radial_m,along_m,cross_m,distance_m\n");
-    for (size_t i = 0; i < a->count; ++i) {
-        print_difference(out, a, b, i);
+    int status = cli_text_file_begin(&file, options->output);
+    if (status == CLI_DONE) {
+        print_differences(file.out, a, b);
+        status = cli_text_file_end(&file);
     }
-    const bool bad = ferror(out) != 0;
-    if (options->output != NULL && (fclose(out) != 0 || bad)) {
-        return cannot_write(options->output);
-    }
-    return CLI_DONE;
+    return status;
 }
 
 /* Before the work: the file of the differences. */

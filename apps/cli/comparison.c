@@ -61,6 +61,7 @@ static int choose_grid(cli_comparison *c) {
             cli_say_of_file("%s: cannot be interpolated: %s", c->name[k], error.message);
             return error.status == SRP_NO_MEMORY ? CLI_MACHINE_FAILED : CLI_BAD_INPUT;
         }
+        c->is_interpolated[k] = c->interp[k] != NULL;
     }
     return CLI_DONE;
 }

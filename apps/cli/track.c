@@ -63,6 +63,19 @@ srp_vec3 cli_track_difference(const cli_track *a, const cli_track *b, size_t i) 
                          srp_vec3_dot(d, cross));
 }
 
+double cli_track_distance(const cli_track *a, const cli_track *b, size_t i) {
+    return srp_vec3_norm(srp_vec3_sub(b->r[i], a->r[i]));
+}
+
+void cli_rows_begin(FILE *out, bool is_difference) {
+    fprintf(out, "elapsed_s,%s,distance_m\n",
+            is_difference ? "radial_m,along_m,cross_m" : "x_m,y_m,z_m");
+}
+
+void cli_rows_put(FILE *out, double t, srp_vec3 along, double distance) {
+    fprintf(out, "%.17g,%.9g,%.9g,%.9g,%.9g\n", t, along.x, along.y, along.z, distance);
+}
+
 int cli_missions_check_pair(const srp_mission *a, const srp_mission *b) {
     const srp_mission_info *one = srp_mission_get_info(a), *other = srp_mission_get_info(b);
     const struct {

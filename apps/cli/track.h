@@ -5,6 +5,9 @@
 
 #include <srp/orbit/mission.h>
 
+#include <stdbool.h>
+#include <stdio.h>
+
 /* All zeros at first. */
 typedef struct cli_track {
     srp_vec3 *r, *v; /* (count) [m], [m/s] */
@@ -19,6 +22,13 @@ void cli_track_free(cli_track *t);
 /* Rows i: b - a along the axes of a: x away from the centre, y along the orbit, z along its normal
  * [m]. */
 srp_vec3 cli_track_difference(const cli_track *a, const cli_track *b, size_t i);
+/* How far b is from a [m]. */
+double cli_track_distance(const cli_track *a, const cli_track *b, size_t i);
+
+/* CSV of rows: its names, then `t` [s], what is along the axes and the distance [m] of each. Rows
+ * of one orbit are its position and the distance from the centre. */
+void cli_rows_begin(FILE *out, bool is_difference);
+void cli_rows_put(FILE *out, double t, srp_vec3 along, double distance);
 
 /* Reads a mission with all that this program has: methods of every device, and the cache. Warnings
  * are said. Statuses of srp_mission_read(). */

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "actions.h"
 
+#include "dropping.h"
 #include "exchange.h"
 #include "facing.h"
 #include "fit.h"
 #include "methods.h"
 #include "numbers.h"
+#include "opening.h"
 #include "orbit.h"
 #include "reoptic.h"
+#include "saving.h"
 #include "screenshot.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- spacecraft ---- */
@@ -38,6 +42,20 @@ static void setup_said(viewer *v, bool good, const viewer_words *problem) {
     }
 }
 
+/* Files as a shell reads them. */
+static void drop(viewer *v, GVariant *parameter) {
+    char **paths = NULL;
+    int count = 0;
+    GError *error = NULL;
+    if (!g_shell_parse_argv(g_variant_get_string(parameter, NULL), &count, &paths, &error)) {
+        viewer_complain(v, error->message);
+        g_error_free(error);
+        return;
+    }
+    viewer_drop(v, (const char *const *)paths, (size_t)count);
+    g_strfreev(paths);
+}
+
 static void set_unit(viewer *v, GVariant *parameter) {
     viewer_words problem = {""};
     const char *text = g_variant_get_string(parameter, NULL);
@@ -62,7 +80,7 @@ static void set_mass(viewer *v, GVariant *parameter) {
     viewer_words problem = {""};
     bool good =
         viewer_setup_set_mass(v->session->setup, g_variant_get_string(parameter, NULL), &problem);
-    viewer_complain(v, good ? "" : problem.text);
+    good ? viewer_complain_no_more(v) : viewer_complain(v, problem.text);
     viewer_tell(v, CHANGED_SETUP | CHANGED_FORCE);
 }
 
@@ -170,11 +188,15 @@ static void turn_z(viewer *v, GVariant *parameter) {
 /* "AZ,EL" in degrees. */
 static void set_sun(viewer *v, GVariant *parameter) {
     double at[2];
-    if (!cli_read_numbers(g_variant_get_string(parameter, NULL), 2, at) || fabs(at[0]) > 360.0 ||
-        fabs(at[1]) > 90.0) {
-        viewer_complain(v, "expected AZ,EL: degrees from -360 to 360 and from -90 to 90");
+    const char *text = g_variant_get_string(parameter, NULL);
+    if (!cli_read_numbers(text, 2, at) || fabs(at[0]) > 360.0 || fabs(at[1]) > 90.0) {
+        char *line = g_strdup_printf(
+            "Sun %s: expected AZ,EL: degrees from -360 to 360 and from -90 to 90", text);
+        viewer_complain(v, line);
+        g_free(line);
         return;
     }
+    viewer_complain_no_more(v);
     v->session->attitude = viewer_attitude_for_sun(at[0], at[1]);
     sun_moved(v);
 }
@@ -273,14 +295,23 @@ static void show_tab(viewer *v, GVariant *parameter) {
 
 /* ---- tables ---- */
 
-static void set_az_step(viewer *v, GVariant *parameter) {
-    v->az_step_deg = g_variant_get_double(parameter);
+static void set_step(viewer *v, double *step, GVariant *parameter) {
+    double degrees = g_variant_get_double(parameter);
+    if (!(degrees >= VIEWER_STEP_MIN_DEG && degrees <= VIEWER_STEP_MAX_DEG)) {
+        viewer_complain(v, "expected a step from 0.5 to 90 degrees");
+        return;
+    }
+    *step = degrees;
+    viewer_complain_no_more(v);
     viewer_tell(v, CHANGED_SETUP);
 }
 
+static void set_az_step(viewer *v, GVariant *parameter) {
+    set_step(v, &v->az_step_deg, parameter);
+}
+
 static void set_el_step(viewer *v, GVariant *parameter) {
-    v->el_step_deg = g_variant_get_double(parameter);
-    viewer_tell(v, CHANGED_SETUP);
+    set_step(v, &v->el_step_deg, parameter);
 }
 
 static void compute_table(viewer *v, GVariant *parameter) {
@@ -292,6 +323,7 @@ static void cancel(viewer *v, GVariant *parameter) {
     (void)parameter;
     viewer_cancel_table(v);
     viewer_fit_cancel(v);
+    viewer_opening_cancel(v);
 #ifdef SRP_CLI_HAS_ORBIT
     viewer_orbit_cancel(v);
 #endif
@@ -319,6 +351,7 @@ static void reoptic(viewer *v, GVariant *parameter) {
 
 static void clear_tables(viewer *v, GVariant *parameter) {
     (void)parameter;
+    viewer_opening_cancel(v);
     v->table_shown = v->compared[0] = v->compared[1] = -1;
     viewer_session_clear_tables(v->session);
     viewer_tell(v, CHANGED_TABLES);
@@ -348,7 +381,7 @@ static void compare_b(viewer *v, GVariant *parameter) {
 }
 
 static void open_table(viewer *v, GVariant *parameter) {
-    viewer_exchange_open_table(v, g_variant_get_string(parameter, NULL));
+    viewer_opening_add(v, g_variant_get_string(parameter, NULL));
 }
 
 static void choose_table_file(viewer *v, GVariant *parameter) {
@@ -357,7 +390,7 @@ static void choose_table_file(viewer *v, GVariant *parameter) {
 }
 
 static void save(viewer *v, GVariant *parameter) {
-    viewer_exchange_save(v, g_variant_get_string(parameter, NULL));
+    viewer_save(v, g_variant_get_string(parameter, NULL));
 }
 
 static void choose_save(viewer *v, GVariant *parameter) {
@@ -369,6 +402,20 @@ static void toggle_together(viewer *v, GVariant *parameter) {
     (void)parameter;
     v->charts_together = !v->charts_together;
     viewer_tell(v, CHANGED_VIEW);
+}
+
+/* "N AZ,EL" */
+static void set_chart_view(viewer *v, GVariant *parameter) {
+    const char *text = g_variant_get_string(parameter, NULL);
+    char *rest;
+    double at[2];
+    long number = strtol(text, &rest, 10);
+    if (number < 1 || number > VIEWER_CHARTS || *rest != ' ' ||
+        !cli_read_numbers(rest + 1, 2, at)) {
+        viewer_complain(v, "expected N AZ,EL: a surface from 1 to 4, and degrees");
+        return;
+    }
+    viewer_set_chart_view(v, (int)number - 1, at[0], at[1]);
 }
 
 #ifdef SRP_CLI_HAS_ORBIT
@@ -402,7 +449,7 @@ static void propagate(viewer *v, GVariant *parameter) {
 
 static void copy_command(viewer *v, GVariant *parameter) {
     (void)parameter;
-    char *line = viewer_exchange_force_command(v);
+    char *line = viewer_check_engine(v) ? viewer_exchange_force_command(v) : NULL;
     if (line != NULL) {
         gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(v->window)), line);
         viewer_say(v, line);
@@ -430,6 +477,8 @@ static void close_window(viewer *v, GVariant *parameter) {
 static const viewer_action ACTIONS[] = {
     {"open", "s", NULL, "Open an OBJ file.", open_model},
     {"choose-model", NULL, "<Control>o", "Ask for an OBJ file.", choose_model},
+    {"drop", "s", NULL, "Take files by their endings, as those that are dropped on the window.",
+     drop},
     {"reload", NULL, "<Control>r F5", "Read the files again.", reload},
     {"unit", "s", NULL, "Unit of the OBJ file: m, cm, mm, in, ft or a number of metres.", set_unit},
     {"plates", "s", NULL, "Plates file of the method nplate.", set_plates},
@@ -466,10 +515,13 @@ static const viewer_action ACTIONS[] = {
     {"open-table", "s", NULL, "Open a table from disk.", open_table},
     {"choose-table", NULL, "<Control><Shift>o", "Ask for a table.", choose_table_file},
     {"save", "s", NULL,
-     "Save the table shown (.nc, .spo, .txt), its figure (.png, .svg, .pdf), or the comparison's.",
+     "Save what the tab shows: a picture (.png), table (.nc, .spo, .txt) or figure (.png, .svg, "
+     ".pdf), comparison (.txt), fitted plates (.plates) or orbit (.csv).",
      save},
     {"choose-save", NULL, "<Control>s", "Ask where to save.", choose_save},
     {"turn-together", NULL, NULL, "Turn the four surfaces together or apart.", toggle_together},
+    {"chart-view", "s", NULL, "N AZ,EL of the eye of surface 1 to 4, or of all that turn together.",
+     set_chart_view},
     {"compare-a", "i", NULL, "The table that is compared with.", compare_a},
     {"compare-b", "i", NULL, "The table that is compared.", compare_b},
     {"fit", "i", NULL, "Fit so many plates (1 to 64) to table A; what they give becomes B.", fit},
@@ -492,8 +544,40 @@ const viewer_action *viewer_action_list(size_t *count) {
     return ACTIONS;
 }
 
+/* These look at things, or ask for more: what was said of the last step stands. */
+static const char *const LOOKS[] = {"turn-x",
+                                    "turn-y",
+                                    "turn-z",
+                                    "sun",
+                                    "reset-attitude",
+                                    "record",
+                                    "clear-arrows",
+                                    "colouring",
+                                    "camera",
+                                    "zoom-in",
+                                    "zoom-out",
+                                    "reset-view",
+                                    "shadows",
+                                    "dark",
+                                    "tab",
+                                    "turn-together",
+                                    "chart-view",
+                                    "screenshot",
+                                    "about",
+                                    "choose-model",
+                                    "choose-plates",
+                                    "choose-mtl",
+                                    "choose-table",
+                                    "choose-save",
+                                    "choose-mission",
+                                    "choose-versus",
+                                    NULL};
+
 static void on_activate(GSimpleAction *action, GVariant *parameter, gpointer user) {
     const viewer_action *which = g_object_get_data(G_OBJECT(action), "which");
+    if (!g_strv_contains(LOOKS, which->name)) {
+        viewer_forget_news(user);
+    }
     which->run(user, parameter);
 }
 

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "audit.h"
 
+#include "numbers.h"
+
+#include <string.h>
+
 /* The keys of one window or popover, each with the text that has it. */
 typedef struct audit {
     GHashTable *keys;
@@ -10,7 +14,8 @@ typedef struct audit {
 static bool is_control(GtkWidget *widget) {
     return GTK_IS_BUTTON(widget) || GTK_IS_MENU_BUTTON(widget) || GTK_IS_ENTRY(widget) ||
            GTK_IS_SPIN_BUTTON(widget) || GTK_IS_DROP_DOWN(widget) || GTK_IS_RANGE(widget) ||
-           GTK_IS_CHECK_BUTTON(widget) || GTK_IS_GL_AREA(widget) || GTK_IS_PROGRESS_BAR(widget);
+           GTK_IS_CHECK_BUTTON(widget) || GTK_IS_GL_AREA(widget) || GTK_IS_PROGRESS_BAR(widget) ||
+           gtk_widget_has_css_class(widget, "turns");
 }
 
 /* Made by GTK inside another control, a popover menu, or the frame of the window. */
@@ -39,15 +44,37 @@ static bool has_letters(const char *text) {
     return false;
 }
 
-static bool has_name(GtkWidget *widget) {
+static void complain(audit *a, GtkWidget *widget, const char *what, const char *more) {
+    const char *words = words_of(widget);
+    g_print("%s: %s %s '%s'%s%s\n", what, G_OBJECT_TYPE_NAME(widget), gtk_widget_get_name(widget),
+            words != NULL ? words : "", more[0] != '\0' ? ": " : "", more);
+    ++a->complaints;
+}
+
+/* The name that the widget has itself, "(null)": none. GTK tells it only to those who guess wrong.
+ */
+static char *own_name(GtkWidget *widget) {
+    return gtk_test_accessible_check_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL,
+                                              "\001");
+}
+
+/* As screen readers hear it: from the widget itself, or from a label, not from both. */
+static void look_at_name(audit *a, GtkWidget *widget) {
     GtkAccessible *accessible = GTK_ACCESSIBLE(widget);
     const char *words = words_of(widget);
-    if (gtk_test_accessible_has_property(accessible, GTK_ACCESSIBLE_PROPERTY_LABEL)) {
-        return true;
+    bool own = gtk_test_accessible_has_property(accessible, GTK_ACCESSIBLE_PROPERTY_LABEL);
+    bool label = gtk_test_accessible_has_relation(accessible, GTK_ACCESSIBLE_RELATION_LABELLED_BY);
+    char *name = own ? own_name(widget) : NULL;
+    if (!own && !(label && (words == NULL || has_letters(words)))) {
+        complain(a, widget, "no name", "");
+    } else if (own && (!has_letters(name) || strcmp(name, "Tab") == 0)) { /* GTK's for all tabs */
+        complain(a, widget, "no name", name);
+    } else if (own && label) {
+        complain(a, widget, "two names", name);
+    } else if (own && words != NULL && strchr(words, '_') != NULL && strcmp(words, name) == 0) {
+        complain(a, widget, "the mark of a key in the name", name);
     }
-    return words != NULL
-               ? has_letters(words)
-               : gtk_test_accessible_has_relation(accessible, GTK_ACCESSIBLE_RELATION_LABELLED_BY);
+    g_free(name);
 }
 
 /* Itself or a part of it. */
@@ -60,18 +87,26 @@ static bool takes_focus(GtkWidget *widget) {
     return takes;
 }
 
-static void complain(audit *a, GtkWidget *widget, const char *what, const char *more) {
-    const char *words = words_of(widget);
-    g_print("%s: %s %s '%s'%s%s\n", what, G_OBJECT_TYPE_NAME(widget), gtk_widget_get_name(widget),
-            words != NULL ? words : "", more[0] != '\0' ? ": " : "", more);
-    ++a->complaints;
+/* What screen readers come by besides controls. */
+static bool is_named(GtkWidget *widget) {
+    return GTK_IS_DRAWING_AREA(widget) || strcmp(gtk_widget_get_css_name(widget), "tab") == 0;
+}
+
+/* A number says what it is. */
+static void look_at_number(audit *a, GtkWidget *widget) {
+    char *text = g_strstrip(g_strdup(gtk_label_get_text(GTK_LABEL(widget))));
+    char *name = own_name(widget);
+    double value;
+    if (cli_read_number(text, &value) && strcmp(g_strstrip(name), text) == 0) {
+        complain(a, widget, "a number of nothing", text);
+    }
+    g_free(name);
+    g_free(text);
 }
 
 static void look_at_control(audit *a, GtkWidget *widget) {
     ++a->controls;
-    if (!has_name(widget)) {
-        complain(a, widget, "no name", "");
-    }
+    look_at_name(a, widget);
     if (!GTK_IS_PROGRESS_BAR(widget) && !takes_focus(widget)) {
         complain(a, widget, "no keyboard", "");
     }
@@ -132,8 +167,17 @@ static void look(audit *a, GtkWidget *widget, bool shown) {
         look_at_place(a, widget);
         look_at_words(a, widget);
     }
+    if (GTK_IS_LABEL(widget)) {
+        look_at_number(a, widget);
+    }
+    if (is_named(widget)) {
+        look_at_name(a, widget);
+    }
     if (is_control(widget)) {
         look_at_control(a, widget);
+        if (GTK_IS_DROP_DOWN(widget)) {
+            look_at_name(a, gtk_widget_get_first_child(widget));
+        }
         if (!GTK_IS_MENU_BUTTON(widget) && !GTK_IS_BUTTON(widget)) {
             return; /* its parts are GTK's */
         }

@@ -2,9 +2,9 @@
 #include "chart.h"
 
 #include "chart_page.h"
+#include "turning.h"
 #include "ui.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -17,8 +17,9 @@ struct viewer_charts {
     bool marked; /* a node is under the pointer */
     int marked_chart;
     uint32_t marked_i, marked_j;
-    double drag_view[2];
 };
+
+static const char HOW_TO[] = "Drag, or use arrow keys, to turn; point for values";
 
 /* Facets along an angle: more are not seen, and take their time. */
 enum { STEPS_MAX = 72 };
@@ -103,7 +104,7 @@ static void redraw(viewer_charts *c) {
     }
 }
 
-/* ---- mouse ---- */
+/* ---- pointer ---- */
 
 static void show_pointer(viewer_charts *c, int k) {
     char *text = NULL;
@@ -118,8 +119,7 @@ static void show_pointer(viewer_charts *c, int k) {
                                srp_grid_elevation_deg(grid, c->marked_j), name, value);
         g_free(name);
     }
-    gtk_label_set_text(GTK_LABEL(c->pointer),
-                       text != NULL ? text : "Drag to turn; point for values");
+    gtk_label_set_text(GTK_LABEL(c->pointer), text != NULL ? text : HOW_TO);
     g_free(text);
 }
 
@@ -142,25 +142,21 @@ static void on_motion(GtkEventControllerMotion *motion, double x, double y, gpoi
     }
 }
 
-static void on_drag_begin(GtkGestureDrag *drag, double x, double y, gpointer user) {
-    viewer_charts *c = user;
-    int k = index_of(c, gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(drag)));
-    (void)x, (void)y;
-    c->drag_view[0] = c->v->chart_view[k][0];
-    c->drag_view[1] = c->v->chart_view[k][1];
+/* ---- turning ---- */
+
+static void look_from(GtkWidget *area, gpointer user, double *az_deg, double *el_deg) {
+    const viewer_charts *c = user;
+    const double *view = c->v->chart_view[index_of(c, area)];
+    *az_deg = view[0];
+    *el_deg = view[1];
 }
 
-static void on_drag(GtkGestureDrag *drag, double dx, double dy, gpointer user) {
-    viewer_charts *c = user;
-    int k = index_of(c, gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(drag)));
-    for (int m = 0; m < CHARTS; ++m) {
-        if (m == k || c->v->charts_together) {
-            c->v->chart_view[m][0] = fmod(c->drag_view[0] + 0.4 * dx + 720.0, 360.0);
-            c->v->chart_view[m][1] = fmax(0.0, fmin(90.0, c->drag_view[1] + 0.3 * dy));
-        }
-    }
-    viewer_tell(c->v, CHANGED_VIEW);
+static void turn(GtkWidget *area, gpointer user, double az_deg, double el_deg) {
+    const viewer_charts *c = user;
+    viewer_set_chart_view(c->v, index_of(c, area), az_deg, el_deg);
 }
+
+static const viewer_turning SURFACE = {look_from, turn, 1.0};
 
 /* ---- life ---- */
 
@@ -178,7 +174,8 @@ static void free_charts(gpointer user) {
 }
 
 static GtkWidget *make_area(viewer_charts *c, const char *name, int k) {
-    GtkWidget *area = gtk_drawing_area_new();
+    GtkWidget *area =
+        g_object_new(GTK_TYPE_DRAWING_AREA, "accessible-role", GTK_ACCESSIBLE_ROLE_IMG, NULL);
     char *full = g_strdup_printf("%s-%d", name, k);
     gtk_widget_set_name(area, full);
     gtk_widget_set_hexpand(area, TRUE);
@@ -188,10 +185,8 @@ static GtkWidget *make_area(viewer_charts *c, const char *name, int k) {
     GtkEventController *motion = gtk_event_controller_motion_new();
     g_signal_connect(motion, "motion", G_CALLBACK(on_motion), c);
     gtk_widget_add_controller(area, motion);
-    GtkGesture *drag = gtk_gesture_drag_new();
-    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_drag_begin), c);
-    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag), c);
-    gtk_widget_add_controller(area, GTK_EVENT_CONTROLLER(drag));
+    viewer_turning_add(area, &SURFACE, c);
+    ui_name(area, "Surface, not there yet");
     g_free(full);
     return area;
 }
@@ -228,6 +223,13 @@ GtkWidget *viewer_charts_widget(viewer_charts *charts) {
     return charts->widget;
 }
 
+static void name_area(GtkWidget *area, const char *field) {
+    char *name = plain(field), *words = g_strdup_printf("Surface of %s; arrow keys turn it", name);
+    ui_name(area, words);
+    g_free(words);
+    g_free(name);
+}
+
 void viewer_charts_show(viewer_charts *c, const char *title, srp_grid grid, double *value,
                         const char *const *names) {
     free(c->value);
@@ -242,9 +244,9 @@ void viewer_charts_show(viewer_charts *c, const char *title, srp_grid grid, doub
     for (size_t k = 0; k < CHARTS && value != NULL; ++k) {
         c->picture.name[k] = names[k];
         c->picture.field[0][k].value = &value[k * nodes];
+        name_area(c->area[k], names[k]);
     }
-    gtk_label_set_text(GTK_LABEL(c->pointer),
-                       value != NULL ? "Drag to turn; point for values" : "");
+    gtk_label_set_text(GTK_LABEL(c->pointer), value != NULL ? HOW_TO : "");
     redraw(c);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Four surfaces over azimuth and elevation, x, y, z and length, drawn by PLplot into the window:
- * they turn with the mouse, together or apart, and tell the value under the pointer. */
+ * they turn by mouse and keys, together or apart, and tell the value under the pointer. */
 #ifndef SRP_VIEWER_CHART_H
 #define SRP_VIEWER_CHART_H
 
@@ -8,7 +8,7 @@
 
 #include <srp/table.h>
 
-enum { CHARTS = 4 };
+enum { CHARTS = VIEWER_CHARTS };
 
 typedef struct viewer_charts viewer_charts;
 

@@ -5,6 +5,7 @@
 #include "comparison_view.h"
 #include "facing.h"
 #include "fit.h"
+#include "text_file.h"
 #include "ui.h"
 #include "viewer.h"
 
@@ -21,13 +22,22 @@ typedef struct pane {
     guint timer; /* while plates are fitted */
     viewer_charts *charts;
     viewer_table *shown[2]; /* or about to be; NULL: none */
+    bool known;             /* they have been compared: */
+    cli_comparison found;   /* released */
+    char *name[2];          /* theirs in it */
     bool quiet;
 } pane;
 
 static const char *const FIELD_NAME[CHARTS] = {"Δf#dx#u [m²]", "Δf#dy#u [m²]", "Δf#dz#u [m²]",
                                                "|Δf| [m²]"};
 
-static const char NOTHING_YET[] = "Two tables of this session, or from disk, are compared here.";
+/* While there are not two tables. */
+static const char *nothing_yet(const viewer *v) {
+    return v->session->table_count == 1
+               ? "Compute or open a second table: then the two are compared here."
+               : "Two tables of this session, or from disk, are compared here: compute or open "
+                 "them.";
+}
 
 /* ---- numbers ---- */
 
@@ -52,36 +62,57 @@ typedef struct comparison_job {
     viewer *v;
     pane *p; /* there as long as the window */
     viewer_table *table[2];
+    char *name[2]; /* for messages and for what is saved */
     bool good;
-    cli_difference difference;
-    char facts[200];
-    srp_grid grid;
+    cli_comparison found;
     double *value; /* (CHARTS, nodes) */
     viewer_words problem;
 } comparison_job;
 
 static void comparison_run(viewer_job *base) {
     comparison_job *job = (comparison_job *)base;
-    cli_comparison c = {.table = {job->table[0]->table, job->table[1]->table},
-                        .name = {job->table[0]->name, job->table[1]->name},
-                        .scheme = srp_interp_find("bicubic")};
+    cli_comparison *c = &job->found;
+    *c = (cli_comparison){.table = {job->table[0]->table, job->table[1]->table},
+                          .name = {job->name[0], job->name[1]},
+                          .scheme = srp_interp_find("bicubic")};
     viewer_words_listen(&job->problem);
-    job->good = cli_comparison_make(&c) == CLI_DONE;
+    job->good = cli_comparison_make(c) == CLI_DONE;
     viewer_words_listen(NULL);
     if (job->good) {
-        job->difference = c.difference;
-        job->grid = c.grid;
-        snprintf(job->facts, sizeof job->facts,
-                 "%zu directions, %g° × %g°, each by its solid angle; mean |f| of A %.6g m², of B "
-                 "%.6g m²",
-                 c.directions, 360.0 / (c.grid.az_count - 1), 180.0 / (c.grid.el_count - 1),
-                 c.difference.mean_a, c.difference.mean_b);
-        job->value = calloc(CHARTS * srp_grid_node_count(c.grid), sizeof *job->value);
+        job->value = calloc(CHARTS * srp_grid_node_count(c->grid), sizeof *job->value);
     }
     if (job->value != NULL && !atomic_load(&job->job.cancel)) {
-        cli_comparison_fields(&c, job->value);
+        cli_comparison_fields(c, job->value);
     }
-    cli_comparison_release(&c);
+    cli_comparison_release(c);
+}
+
+static void show_facts(pane *p) {
+    const cli_comparison *c = &p->found;
+    char facts[200];
+    snprintf(facts, sizeof facts,
+             "%zu directions, %g° × %g°, each by its solid angle; mean |f| of A %.6g m², of B "
+             "%.6g m²",
+             c->directions, 360.0 / (c->grid.az_count - 1), 180.0 / (c->grid.el_count - 1),
+             c->difference.mean_a, c->difference.mean_b);
+    gtk_label_set_text(GTK_LABEL(p->facts), facts);
+}
+
+static void forget(pane *p) {
+    p->known = false;
+    for (int k = 0; k < 2; ++k) {
+        g_clear_pointer(&p->name[k], g_free);
+    }
+}
+
+/* Takes over what was found, for those who save it. */
+static void keep(pane *p, comparison_job *job) {
+    forget(p);
+    p->known = true;
+    p->found = job->found;
+    for (int k = 0; k < 2; ++k) {
+        p->name[k] = g_steal_pointer(&job->name[k]);
+    }
 }
 
 static void comparison_deliver(viewer_job *base) {
@@ -92,17 +123,18 @@ static void comparison_deliver(viewer_job *base) {
         return; /* others have been chosen */
     }
     if (!job->good) {
-        gtk_label_set_text(GTK_LABEL(p->facts), NOTHING_YET);
+        gtk_label_set_text(GTK_LABEL(p->facts), "These two cannot be compared.");
         viewer_complain(v, job->problem.text);
         return;
     }
+    keep(p, job);
     for (int k = 0; k < CLI_DIFFERENCE_COUNT; ++k) {
-        show_row(p, k, &job->difference.row[k]);
+        show_row(p, k, &p->found.difference.row[k]);
     }
-    gtk_label_set_text(GTK_LABEL(p->facts), job->facts);
+    show_facts(p);
     if (job->value != NULL) {
         char *title = g_strdup_printf("%s minus %s", job->table[1]->name, job->table[0]->name);
-        viewer_charts_show(p->charts, title, job->grid, job->value, FIELD_NAME);
+        viewer_charts_show(p->charts, title, p->found.grid, job->value, FIELD_NAME);
         job->value = NULL;
         g_free(title);
     }
@@ -110,8 +142,10 @@ static void comparison_deliver(viewer_job *base) {
 
 static void comparison_release(viewer_job *base) {
     comparison_job *job = (comparison_job *)base;
-    viewer_table_release(job->table[0]);
-    viewer_table_release(job->table[1]);
+    for (int k = 0; k < 2; ++k) {
+        viewer_table_release(job->table[k]);
+        g_free(job->name[k]);
+    }
     free(job->value);
     free(job);
 }
@@ -124,6 +158,9 @@ static void request_comparison(pane *p) {
     job->p = p;
     for (int k = 0; k < 2; ++k) {
         job->table[k] = viewer_table_reference(p->shown[k]);
+        job->name[k] = p->shown[k]->path != NULL
+                           ? g_strdup(p->shown[k]->path)
+                           : g_strdup_printf("Table %d", p->v->compared[k] + 1);
     }
     viewer_worker_cancel(p->v->requests.tables, SLOT_COMPARISON);
     viewer_worker_submit(p->v->requests.tables, SLOT_COMPARISON, &job->job);
@@ -141,6 +178,7 @@ static void set_shown(pane *p, viewer_table *a, viewer_table *b) {
 
 /* Numbers of no tables, while there are none or others are compared. */
 static void show_nothing(pane *p, const char *facts) {
+    forget(p);
     for (int k = 0; k < CLI_DIFFERENCE_COUNT; ++k) {
         for (int c = 0; c < COLUMNS; ++c) {
             gtk_label_set_text(GTK_LABEL(p->number[k][c]), "—");
@@ -191,7 +229,7 @@ static void refresh(pane *p) {
     }
     if (now[0] == NULL || now[1] == NULL) {
         set_shown(p, NULL, NULL);
-        show_nothing(p, NOTHING_YET);
+        show_nothing(p, nothing_yet(p->v));
     } else if (gtk_widget_get_mapped(p->box) && (now[0] != p->shown[0] || now[1] != p->shown[1])) {
         set_shown(p, now[0], now[1]);
         show_nothing(p, "Comparing …");
@@ -251,7 +289,7 @@ static void on_changed(void *user, unsigned what) {
         refresh(p);
     }
     if ((what & CHANGED_SETUP) != 0) {
-        gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), p->v->plates_to_fit);
+        ui_number_show(p->plates, p->v->plates_to_fit);
     }
 }
 
@@ -261,6 +299,7 @@ static void free_pane(gpointer user) {
         g_source_remove(p->timer);
     }
     set_shown(p, NULL, NULL);
+    forget(p);
     g_free(p);
 }
 
@@ -278,6 +317,7 @@ static GtkWidget *make_block(pane *p, int first, int count) {
     static const char *const rows[COLUMNS] = {"MSE [m⁴]",     "RMS [m²]", "Mean [m²]",
                                               "Largest [m²]", "az [°]",   "el [°]"};
     static const char *const words[COLUMNS] = {"mse", "rms", "mean", "largest", "az", "el"};
+    static const char *const of[3] = {"B − A, x", "B − A, y", "B − A, z"};
     GtkWidget *grid = gtk_grid_new();
     gtk_grid_set_column_spacing(GTK_GRID(grid), 8);
     gtk_grid_attach(GTK_GRID(grid), small_heading("B − A", 0.0f), 0, 0, 1, 1);
@@ -288,9 +328,10 @@ static GtkWidget *make_block(pane *p, int first, int count) {
         int r = first + k;
         gtk_grid_attach(GTK_GRID(grid), small_heading(heads[r], 1.0f), 1 + k, 0, 1, 1);
         for (int c = 0; c < COLUMNS; ++c) {
-            char name[48];
+            char name[48], spoken[64];
             snprintf(name, sizeof name, "%s-%s", CLI_DIFFERENCE_NAME[r], words[c]);
-            p->number[r][c] = ui_value(name);
+            snprintf(spoken, sizeof spoken, "%s of %s", rows[c], r < 3 ? of[r] : heads[r]);
+            p->number[r][c] = ui_value(name, spoken);
             gtk_widget_set_size_request(p->number[r][c], 96, -1);
             gtk_label_set_text(GTK_LABEL(p->number[r][c]), "—");
             gtk_grid_attach(GTK_GRID(grid), p->number[r][c], 1 + k, 1 + c, 1, 1);
@@ -302,7 +343,7 @@ static GtkWidget *make_block(pane *p, int first, int count) {
 static GtkWidget *make_side(pane *p) {
     GtkWidget *side = ui_box(GTK_ORIENTATION_VERTICAL, 8);
     p->facts = ui_paragraph("comparison-facts", "dim small", 20);
-    gtk_label_set_text(GTK_LABEL(p->facts), NOTHING_YET);
+    gtk_label_set_text(GTK_LABEL(p->facts), nothing_yet(p->v));
     gtk_box_append(GTK_BOX(side), make_block(p, 0, 3));
     gtk_box_append(GTK_BOX(side), make_block(p, 3, 2));
     gtk_box_append(GTK_BOX(side), p->facts);
@@ -315,21 +356,23 @@ static void on_fit(GtkButton *button, gpointer user) {
     viewer_act(p->v, "fit", g_variant_new_int32((gint32)p->v->plates_to_fit));
 }
 
-static void on_plates(GtkSpinButton *plates, gpointer user) {
-    ((pane *)user)->v->plates_to_fit = gtk_spin_button_get_value_as_int(plates);
+static void on_plates(GtkWidget *plates, void *user) {
+    viewer *v = ((pane *)user)->v;
+    v->plates_to_fit = (int)ui_number_value(plates);
+    viewer_complain_no_more(v);
+    ui_number_show(plates, v->plates_to_fit);
 }
 
 /* How many, and the button that fits them. */
 static GtkWidget *make_fit(pane *p) {
-    p->plates = gtk_spin_button_new_with_range(1.0, CLI_NORMALS_MAX, 1.0);
-    gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->plates), p->v->plates_to_fit);
+    const ui_range counts = {1.0, CLI_NORMALS_MAX, 1.0, true};
+    p->plates = ui_number(p->v, "plates-count", "Plates to fit", counts, on_plates, p);
+    ui_number_show(p->plates, p->v->plates_to_fit);
     gtk_editable_set_width_chars(GTK_EDITABLE(p->plates), 2);
-    gtk_widget_set_name(p->plates, "plates-count");
     gtk_widget_set_tooltip_text(p->plates, "How many plates");
-    gtk_widget_set_valign(p->plates, GTK_ALIGN_CENTER);
-    g_signal_connect(p->plates, "value-changed", G_CALLBACK(on_plates), p);
     p->fit = gtk_button_new_with_mnemonic("_Fit Plates to A");
     gtk_widget_set_name(p->fit, "fit");
+    ui_name(p->fit, "Fit Plates to A");
     gtk_widget_set_valign(p->fit, GTK_ALIGN_CENTER);
     gtk_widget_set_tooltip_text(p->fit,
                                 "Find the N-plate model that comes nearest to A; it becomes B, "
@@ -342,17 +385,21 @@ static GtkWidget *make_fit(pane *p) {
 
 static GtkWidget *make_strip(pane *p) {
     static const char *const words[2] = {"_A", "_B"};
+    static const char *const names[2] = {"Table A", "Table B"};
     GtkWidget *box = ui_strip(8);
     for (int k = 0; k < 2; ++k) {
         p->choice[k] = ui_choice(k == 0 ? "compare-a" : "compare-b", G_CALLBACK(on_choice), p);
+        ui_name(p->choice[k], names[k]);
         gtk_widget_set_hexpand(p->choice[k], TRUE);
         gtk_widget_set_size_request(p->choice[k], 160, -1);
         gtk_box_append(GTK_BOX(box), ui_pair(ui_mnemonic(words[k], p->choice[k]), p->choice[k]));
     }
     gtk_box_append(GTK_BOX(box), ui_button("O_pen…", "choose-table", "Open a table from disk"));
-    gtk_box_append(GTK_BOX(box),
-                   ui_button("Sav_e…", "choose-save",
-                             "Save the figure (.png, .svg, .pdf) or fitted plates (.plates)"));
+    gtk_box_append(
+        GTK_BOX(box),
+        ui_button("Sav_e…", "choose-save",
+                  "Save the comparison (.txt), its figure (.png, .svg, .pdf) or fitted plates "
+                  "(.plates)"));
     gtk_box_append(GTK_BOX(box), make_fit(p));
     p->cancel = ui_button("Cance_l", "cancel", "Stop (Ctrl+.)");
     gtk_widget_set_name(p->cancel, "cancel-fit");
@@ -370,7 +417,7 @@ GtkWidget *viewer_compare_tab(viewer *v) {
     GtkWidget *box = p->box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
     GtkWidget *below = ui_box(GTK_ORIENTATION_HORIZONTAL, 0);
     p->charts = viewer_charts_create(v, "difference");
-    g_object_set_data(G_OBJECT(v->window), "comparison-charts", p->charts);
+    g_object_set_data(G_OBJECT(v->window), "comparison", p);
     gtk_box_append(GTK_BOX(below), viewer_charts_widget(p->charts));
     gtk_box_append(GTK_BOX(below), make_side(p));
     gtk_box_append(GTK_BOX(box), make_strip(p));
@@ -381,11 +428,37 @@ GtkWidget *viewer_compare_tab(viewer *v) {
     return box;
 }
 
-bool viewer_comparison_save(viewer *v, const char *path, viewer_words *problem) {
+/* The pane whose comparison can be saved; NULL, said: there is none. */
+static pane *pane_to_save(viewer *v, viewer_words *problem) {
+    pane *p = g_object_get_data(G_OBJECT(v->window), "comparison");
     if (viewer_worker_is_busy(v->requests.tables, SLOT_COMPARISON)) {
         viewer_words_add(problem, "The tables are still being compared.");
+    } else if (!p->known) {
+        viewer_words_add(problem, "Nothing has been compared yet.");
+    } else {
+        return p;
+    }
+    return NULL;
+}
+
+bool viewer_comparison_save_figure(viewer *v, const char *path, viewer_words *problem) {
+    pane *p = pane_to_save(v, problem);
+    return p != NULL && viewer_charts_save(p->charts, path, problem);
+}
+
+bool viewer_comparison_save_text(viewer *v, const char *path, viewer_words *problem) {
+    const pane *p = pane_to_save(v, problem);
+    if (p == NULL) {
         return false;
     }
-    return viewer_charts_save(g_object_get_data(G_OBJECT(v->window), "comparison-charts"), path,
-                              problem);
+    const srp_table_info *info = srp_table_get_info(p->shown[0]->table);
+    cli_text_file file;
+    viewer_words_listen(problem);
+    int status = cli_text_file_begin(&file, path);
+    if (status == CLI_DONE) {
+        cli_comparison_print(file.out, &p->found, info->mass, info->light);
+        status = cli_text_file_end(&file);
+    }
+    viewer_words_listen(NULL);
+    return status == CLI_DONE;
 }

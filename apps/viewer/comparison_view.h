@@ -4,7 +4,8 @@
 
 #include "viewer.h"
 
-/* The figure of the comparison's tab. */
-bool viewer_comparison_save(viewer *v, const char *path, viewer_words *problem);
+/* The figure of the comparison's tab, and what `srp compare` prints of the two tables. */
+bool viewer_comparison_save_figure(viewer *v, const char *path, viewer_words *problem);
+bool viewer_comparison_save_text(viewer *v, const char *path, viewer_words *problem);
 
 #endif

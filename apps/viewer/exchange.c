@@ -1,15 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "exchange.h"
 
-#include "chart.h"
-#include "comparison_view.h"
-#include "fit.h"
 #include "messages.h"
 #include "numbers.h"
-#include "orbit.h"
-#include "outputs.h"
-#include "state.h"
-#include "table_input.h"
+#include "saving.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +20,6 @@ void viewer_exchange_open(viewer *v, const char *path) {
         viewer_setup_clear_materials(setup);
     }
     if (viewer_setup_set_model(setup, full)) {
-        viewer_state_note_recent(v, full);
         viewer_complain(v, "");
         viewer_tell(v, CHANGED_SETUP);
         viewer_request_engine(v, !other);
@@ -53,7 +46,7 @@ void viewer_exchange_open_mtl(viewer *v, const char *path) {
     srp_error error;
     viewer_words problem = {""};
     if (engine == NULL || engine->shape == NULL) {
-        viewer_complain(v, "There is no spacecraft yet: open one.");
+        viewer_complain(v, VIEWER_NO_SPACECRAFT);
         return;
     }
     viewer_words_listen(&problem);
@@ -78,115 +71,11 @@ void viewer_exchange_open_mtl(viewer *v, const char *path) {
     }
 }
 
-void viewer_exchange_open_table(viewer *v, const char *path) {
-    viewer_words problem = {""};
-    srp_table *table = NULL;
-    viewer_words_listen(&problem);
-    int status = cli_table_open_checked(path, &table);
-    viewer_words_listen(NULL);
-    if (status != CLI_DONE) {
-        viewer_complain(v, problem.text);
-        return;
-    }
-    char summary[256], name[400];
-    cli_table_summary(table, summary, sizeof summary);
-    char *base = g_path_get_basename(path);
-    snprintf(name, sizeof name, "%zu: %.100s (%s)", v->session->table_count + 1, base, summary);
-    g_free(base);
-    viewer_table entry = {table, viewer_text_copy(name), NULL, viewer_text_copy(path), 0};
-    if (viewer_session_add_table(v->session, entry)) {
-        v->table_shown = (int)v->session->table_count - 1;
-    }
-    viewer_complain(v, "");
-    viewer_tell(v, CHANGED_TABLES);
-}
-
-/* ---- out ---- */
-
-/* With the words of the program's own writers. */
-static int write_table(const viewer_table *entry, const char *path, viewer_words *problem) {
-    const char *items[] = {path};
-    cli_list paths = {items, 1};
-    size_t written;
-    const srp_table_info *info = srp_table_get_info(entry->table);
-    cli_table_content content = {info->mass == info->mass, false};
-    viewer_words_listen(problem);
-    int status = cli_outputs_check(&paths, content, NULL, 0);
-    if (status == CLI_DONE) {
-        status = cli_outputs_write(&paths, entry->table, &written);
-    }
-    viewer_words_listen(NULL);
-    return status;
-}
-
-static void save_table(viewer *v, const char *path) {
-    viewer_words problem = {""};
-    if (v->table_shown < 0) {
-        viewer_complain(v, "There is no table yet: compute or open one.");
-        return;
-    }
-    viewer_table *entry = v->session->tables[v->table_shown];
-    if (write_table(entry, path, &problem) != CLI_DONE) {
-        viewer_complain(v, problem.text);
-        return;
-    }
-    char *copy = viewer_text_copy(path);
-    if (copy != NULL) {
-        free(entry->path);
-        entry->path = copy;
-    }
-    char *said = g_strdup_printf("Saved %s.", path);
-    viewer_say(v, said);
-    g_free(said);
-}
-
-static void save_plates(viewer *v, const char *path) {
-    viewer_words problem = {""};
-    bool good = viewer_fit_save(v, path, &problem);
-    char *said = g_strdup_printf("Saved %s.", path);
-    good ? viewer_say(v, said) : viewer_complain(v, problem.text);
-    g_free(said);
-}
-
-static void save_rows(viewer *v, const char *path) {
-#ifdef SRP_CLI_HAS_ORBIT
-    viewer_words problem = {""};
-    bool good = viewer_orbit_save(v, path, &problem);
-    char *said = g_strdup_printf("Saved %s.", path);
-    good ? viewer_say(v, said) : viewer_complain(v, problem.text);
-    g_free(said);
-#else
-    (void)path;
-    viewer_complain(v, "This build has no missions.");
-#endif
-}
-
-void viewer_exchange_save(viewer *v, const char *path) {
-    if (srp_table_format_of(path) != NULL) {
-        save_table(v, path);
-        return;
-    }
-    viewer_words problem = {""};
-    if (g_str_has_suffix(path, ".csv")) {
-        save_rows(v, path);
-        return;
-    }
-    if (g_str_has_suffix(path, ".plates")) {
-        save_plates(v, path);
-        return;
-    }
-    bool compares = gtk_notebook_get_current_page(v->tabs) == TAB_COMPARE;
-    bool good =
-        compares ? viewer_comparison_save(v, path, &problem) : viewer_chart_save(v, path, &problem);
-    char *said = g_strdup_printf("Saved %s.", path);
-    good ? viewer_say(v, said) : viewer_complain(v, problem.text);
-    g_free(said);
-}
-
 /* ---- dialogs ---- */
 
 typedef struct question {
     viewer *v;
+    void (*answered)(viewer *v, const char *action, const char *path);
     const char *action;
 } question;
 
@@ -196,7 +85,7 @@ static void on_response(GtkNativeDialog *dialog, int response, gpointer user) {
         GFile *file = gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog));
         char *path = file != NULL ? g_file_get_path(file) : NULL;
         if (path != NULL) {
-            viewer_act_text(asked->v, asked->action, path);
+            asked->answered(asked->v, asked->action, path);
         }
         g_free(path);
         g_clear_object(&file);
@@ -205,39 +94,71 @@ static void on_response(GtkNativeDialog *dialog, int response, gpointer user) {
     g_object_unref(dialog);
 }
 
-/* Asks for a file whose ending is one of `patterns`, and hands it to an action. */
-static void ask(viewer *v, const char *title, const char *action, GtkFileChooserAction how,
-                const char *kind, const char *const *patterns) {
-    GtkFileChooserNative *dialog = gtk_file_chooser_native_new(title, v->window, how, NULL, NULL);
+static void add_filter(GtkFileChooser *dialog, const char *kind, const char *const *patterns) {
     GtkFileFilter *filter = gtk_file_filter_new();
     gtk_file_filter_set_name(filter, kind);
     for (size_t i = 0; patterns[i] != NULL; ++i) {
         gtk_file_filter_add_pattern(filter, patterns[i]);
     }
-    gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(dialog), filter);
+    gtk_file_chooser_add_filter(dialog, filter);
     g_object_unref(filter);
+}
+
+/* Begins where the spacecraft is, or where the program was started. */
+static void choose_folder(const viewer *v, GtkFileChooser *dialog) {
+    const char *model = v->session->setup->model;
+    char *folder = model != NULL ? g_path_get_dirname(model) : g_get_current_dir();
+    GFile *file = g_file_new_for_path(folder);
+    (void)gtk_file_chooser_set_current_folder(dialog, file, NULL);
+    g_object_unref(file);
+    g_free(folder);
+}
+
+/* Asks for a file whose ending is one of `patterns`. `name` is proposed; NULL: none. */
+static void ask_and(const question *what, const char *title, GtkFileChooserAction how,
+                    const char *kind, const char *const *patterns, const char *name) {
+    static const char *const all[] = {"*", NULL};
+    GtkFileChooserNative *dialog =
+        gtk_file_chooser_native_new(title, what->v->window, how, NULL, NULL);
+    add_filter(GTK_FILE_CHOOSER(dialog), kind, patterns);
+    add_filter(GTK_FILE_CHOOSER(dialog), "All files", all);
+    choose_folder(what->v, GTK_FILE_CHOOSER(dialog));
+    if (name != NULL) {
+        gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(dialog), name);
+    }
     question *asked = g_new0(question, 1);
-    *asked = (question){v, action};
+    *asked = *what;
     gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(dialog), TRUE);
     g_signal_connect(dialog, "response", G_CALLBACK(on_response), asked);
     gtk_native_dialog_show(GTK_NATIVE_DIALOG(dialog));
+}
+
+static void act(viewer *v, const char *action, const char *path) {
+    viewer_act_text(v, action, path);
+}
+
+/* Asks for a file to be opened, and hands it to an action. */
+static void ask(viewer *v, const char *title, const char *action, const char *kind,
+                const char *const *patterns) {
+    const question what = {v, act, action};
+    ask_and(&what, title, GTK_FILE_CHOOSER_ACTION_OPEN, kind, patterns, NULL);
 }
 
 static const char *const TABLES[] = {"*.nc", "*.spo", "*.txt", NULL};
 
 void viewer_exchange_ask_open(viewer *v) {
     static const char *const patterns[] = {"*.obj", "*.OBJ", NULL};
-    ask(v, "Open a Spacecraft", "open", GTK_FILE_CHOOSER_ACTION_OPEN, "Wavefront OBJ", patterns);
+    ask(v, "Open a Spacecraft", "open", "Wavefront OBJ", patterns);
 }
 
 void viewer_exchange_ask_plates(viewer *v) {
     static const char *const patterns[] = {"*.plates", "*.txt", NULL};
-    ask(v, "Open Plates", "plates", GTK_FILE_CHOOSER_ACTION_OPEN, "Plates", patterns);
+    ask(v, "Open Plates", "plates", "Plates", patterns);
 }
 
 void viewer_exchange_ask_mtl(viewer *v) {
     static const char *const patterns[] = {"*.mtl", "*.MTL", NULL};
-    ask(v, "Find the MTL File", "mtl", GTK_FILE_CHOOSER_ACTION_OPEN, "Wavefront MTL", patterns);
+    ask(v, "Find the MTL File", "mtl", "Wavefront MTL", patterns);
 }
 
 void viewer_exchange_miss_mtl(viewer *v) {
@@ -253,20 +174,38 @@ void viewer_exchange_miss_mtl(viewer *v) {
 }
 
 void viewer_exchange_ask_table(viewer *v) {
-    ask(v, "Open a Table", "open-table", GTK_FILE_CHOOSER_ACTION_OPEN, "Tables", TABLES);
+    ask(v, "Open a Table", "open-table", "Tables", TABLES);
+}
+
+static void ask_save_as(viewer *v, const char *name);
+
+/* A name that this tab cannot save is asked for once more, with an ending that it can. */
+static void save(viewer *v, const char *action, const char *path) {
+    const viewer_saving *saving = viewer_saving_now(v);
+    viewer_act_text(v, action, path);
+    if (!viewer_saving_takes(saving, path)) {
+        char *base = g_path_get_basename(path);
+        char *name = g_strconcat(base, strrchr(saving->name, '.'), NULL);
+        ask_save_as(v, name);
+        g_free(name);
+        g_free(base);
+    }
+}
+
+static void ask_save_as(viewer *v, const char *name) {
+    const viewer_saving *saving = viewer_saving_now(v);
+    const question what = {v, save, "save"};
+    ask_and(&what, saving->title, GTK_FILE_CHOOSER_ACTION_SAVE, "What this tab saves",
+            saving->patterns, name);
 }
 
 void viewer_exchange_ask_save(viewer *v) {
-    static const char *const patterns[] = {"*.nc",  "*.spo", "*.txt",    "*.png", "*.svg",
-                                           "*.pdf", "*.csv", "*.plates", NULL};
-    ask(v, "Save Table or Figure", "save", GTK_FILE_CHOOSER_ACTION_SAVE, "Tables and figures",
-        patterns);
+    ask_save_as(v, viewer_saving_now(v)->name);
 }
 
 void viewer_exchange_ask_mission(viewer *v, int which) {
     static const char *const patterns[] = {"*.yaml", "*.yml", NULL};
-    ask(v, "Open a Mission", which == 0 ? "mission" : "versus", GTK_FILE_CHOOSER_ACTION_OPEN,
-        "Missions", patterns);
+    ask(v, "Open a Mission", which == 0 ? "mission" : "versus", "Missions", patterns);
 }
 
 char *viewer_exchange_force_command(const viewer *v) {

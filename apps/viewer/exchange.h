@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Files that come in and go out, and the dialogs that ask for them. */
+/* Files that come in, and the dialogs that ask for files. */
 #ifndef SRP_VIEWER_EXCHANGE_H
 #define SRP_VIEWER_EXCHANGE_H
 
@@ -11,11 +11,6 @@ void viewer_exchange_open(viewer *v, const char *path);
 void viewer_exchange_open_mtl(viewer *v, const char *path);
 /* Asks for the MTL file that a newly opened spacecraft names and lacks; once, and no script. */
 void viewer_exchange_miss_mtl(viewer *v);
-/* Reads a table and puts it into the list. */
-void viewer_exchange_open_table(viewer *v, const char *path);
-/* Saves what the tab shows: the ending chooses between a table (.nc, .spo, .txt) and its figure
- * (.png, .svg, .pdf). */
-void viewer_exchange_save(viewer *v, const char *path);
 
 void viewer_exchange_ask_open(viewer *v);
 void viewer_exchange_ask_mtl(viewer *v);

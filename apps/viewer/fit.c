@@ -149,8 +149,9 @@ static void fit_deliver(viewer_job *base) {
                                       : viewer_complain(v, job->problem.text);
     } else {
         char name[256];
-        snprintf(name, sizeof name, "%zu: %zu plates fitted to %.150s", v->session->table_count + 1,
-                 job->fit.count, job->from->name);
+        snprintf(name, sizeof name, "%zu: %zu plate%s fitted to %.150s",
+                 v->session->table_count + 1, job->fit.count, job->fit.count == 1 ? "" : "s",
+                 job->from->name);
         keep_plates(job);
         viewer_table table = {job->table, viewer_text_copy(name), NULL, NULL, 0};
         job->table = NULL;
@@ -179,7 +180,7 @@ void viewer_fit_request(viewer *v, unsigned plates) {
         return;
     }
     if (v->compared[0] < 0) {
-        viewer_complain(v, "There is no table A yet: compute or open one.");
+        viewer_complain(v, VIEWER_NO_TABLE);
         return;
     }
     fit_job *job = g_new0(fit_job, 1);

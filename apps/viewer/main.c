@@ -72,7 +72,7 @@ static void begin(viewer *v) {
     v->plates_to_fit = 8;
     v->az_step_deg = v->el_step_deg = 10.0;
     v->asked_at = NAN;
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < VIEWER_CHARTS; ++k) {
         v->chart_view[k][0] = 210.0;
         v->chart_view[k][1] = 35.0;
     }

@@ -261,9 +261,8 @@ static void on_changed(void *user, unsigned what) {
 static void make_more(pane *p) {
     GtkWidget *popover = gtk_popover_new();
     p->more_rows = ui_box(GTK_ORIENTATION_VERTICAL, 6);
-    p->more = g_object_ref_sink(gtk_menu_button_new()); /* it comes and goes */
+    p->more = g_object_ref_sink(ui_menu_button("More")); /* it comes and goes */
     gtk_popover_set_child(GTK_POPOVER(popover), p->more_rows);
-    gtk_menu_button_set_label(GTK_MENU_BUTTON(p->more), "More");
     gtk_menu_button_set_popover(GTK_MENU_BUTTON(p->more), popover);
     gtk_widget_set_valign(p->more, GTK_ALIGN_CENTER);
 }
@@ -312,6 +311,7 @@ GtkWidget *viewer_method_pane(viewer *v) {
     p->quiet = true;
     p->method = ui_choice("method", G_CALLBACK(on_method), p);
     p->device = ui_choice("device", G_CALLBACK(on_device), p);
+    ui_name(p->device, "Device");
     p->summary = ui_paragraph("method-summary", "dim small", 40);
     p->parameters = ui_titled_strip(ui_label("", NULL));
     make_more(p);

@@ -5,26 +5,31 @@
 
 #include "viewer.h"
 
-/* What came of the last run. */
+/* The missions that are chosen, and what came of their run. */
 typedef struct viewer_orbit {
-    char *path[2];  /* mission, and the one it is compared with; NULL: none */
-    char *model[2]; /* of the radiation pressure, of the last run; NULL: not run */
-    size_t count;   /* rows */
-    double *t;      /* (count) [s] */
+    char *path[2]; /* mission, and the one it is compared with; NULL: none */
+    char *name[2]; /* of both, with their models of sunlight: "geo.yaml (exact)" */
+    size_t count;  /* rows; 0: these missions have not been run, or in vain */
+    double *t;     /* (count) [s] */
     double
         *value[4]; /* (count each) [m] radial, along, cross, distance of the second from the first;
                       of one mission alone: its position, and its distance from the centre */
     bool is_difference;
+    bool is_identical; /* the differences are 0 everywhere */
     char summary[400];
     double seconds; /* it took */
 } viewer_orbit;
 
 /* What the session has; never NULL. */
 const viewer_orbit *viewer_orbit_get(viewer *v);
-/* Sets mission 0, or 1, which it is compared with; "" for none. */
+/* Reads mission 0, or 1, which it is compared with, beside the window, and chooses it if it is one;
+ * "" for none. Another choice ends the run of the last one and takes away what came of it. */
 void viewer_orbit_open(viewer *v, int which, const char *path);
+/* As soon as missions that are being read have been. */
 void viewer_orbit_run(viewer *v);
+/* Missions that are being read are not chosen, too. */
 void viewer_orbit_cancel(viewer *v);
+/* Or about to run: missions are being read. */
 bool viewer_orbit_is_running(const viewer *v);
 /* Share of the run that is done. */
 double viewer_orbit_progress(viewer *v);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include "command.h"
 #include "orbit.h"
+#include "text_file.h"
 #include "track.h"
 
 #include <math.h>
@@ -7,24 +9,32 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const char NO_MISSION[] = "There is no mission yet: open one.";
+
 /* Of a window. */
 typedef struct keeper {
     viewer_orbit orbit;
     atomic_int permille;
+    unsigned choice; /* counts choices: what runs may be of an old one */
+    bool run_waits;  /* for missions that are being read */
 } keeper;
 
-static void free_result(viewer_orbit *orbit) {
+static void free_rows(viewer_orbit *orbit) {
     free(orbit->t);
     for (int k = 0; k < 4; ++k) {
         free(orbit->value[k]);
         orbit->value[k] = NULL;
     }
-    for (int k = 0; k < 2; ++k) {
-        free(orbit->model[k]);
-        orbit->model[k] = NULL;
-    }
     orbit->t = NULL;
     orbit->count = 0;
+}
+
+static void free_result(viewer_orbit *orbit) {
+    free_rows(orbit);
+    for (int k = 0; k < 2; ++k) {
+        free(orbit->name[k]);
+        orbit->name[k] = NULL;
+    }
 }
 
 static void free_keeper(gpointer user) {
@@ -52,16 +62,114 @@ double viewer_orbit_progress(viewer *v) {
     return 1e-3 * atomic_load(&keeper_of(v)->permille);
 }
 
+static bool is_reading(const viewer *v) {
+    return viewer_worker_is_busy(v->requests.tables, SLOT_MISSION) ||
+           viewer_worker_is_busy(v->requests.tables, SLOT_VERSUS);
+}
+
 bool viewer_orbit_is_running(const viewer *v) {
-    return viewer_worker_is_busy(v->requests.batch, SLOT_ORBIT);
+    return viewer_worker_is_busy(v->requests.batch, SLOT_ORBIT) || is_reading(v);
+}
+
+/* ---- the choice ---- */
+
+typedef struct read_job {
+    viewer_job job;
+    viewer *v;
+    int which;
+    char *path, *name;
+    viewer_words problem; /* or, of a mission that can be run, its warnings */
+    bool good;
+} read_job;
+
+static char *name_of(const char *path, const char *model) {
+    char *base = g_path_get_basename(path), *valid = g_utf8_make_valid(base, -1);
+    char *name = g_strdup_printf("%s (%s)", valid, model), *copy = viewer_text_copy(name);
+    g_free(name);
+    g_free(valid);
+    g_free(base);
+    return copy;
+}
+
+static void read_run(viewer_job *base) {
+    read_job *job = (read_job *)base;
+    srp_mission *mission = NULL;
+    srp_error error;
+    viewer_words_listen(&job->problem);
+    job->good = cli_mission_read(job->path, &mission, &error) == SRP_OK;
+    if (job->good) {
+        job->name = name_of(job->path, srp_mission_get_info(mission)->model);
+    } else {
+        viewer_words_add_error(&job->problem, &error);
+    }
+    srp_mission_destroy(mission);
+    viewer_words_listen(NULL);
+}
+
+/* Takes over both texts; NULL: none. */
+static void choose(viewer *v, int which, char *path, char *name) {
+    keeper *k = keeper_of(v);
+    viewer_worker_cancel(v->requests.batch, SLOT_ORBIT);
+    free_rows(&k->orbit);
+    free(k->orbit.path[which]);
+    free(k->orbit.name[which]);
+    k->orbit.path[which] = path;
+    k->orbit.name[which] = name;
+    ++k->choice;
+    viewer_forget_news(v); /* of the run of the last choice */
+}
+
+static void run_when_read(viewer *v) {
+    keeper *k = keeper_of(v);
+    if (k->run_waits && !is_reading(v)) {
+        k->run_waits = false;
+        viewer_orbit_run(v);
+    }
+}
+
+static void read_deliver(viewer_job *base) {
+    read_job *job = (read_job *)base;
+    viewer *v = job->v;
+    if (atomic_load(&job->job.cancel)) {
+        /* Another one was asked for, or none. */
+    } else if (!job->good) {
+        keeper_of(v)->run_waits = false;
+        viewer_complain(v, job->problem.text);
+    } else {
+        choose(v, job->which, job->path, job->name);
+        job->path = job->name = NULL;
+        if (job->problem.text[0] != '\0') {
+            viewer_say(v, job->problem.text);
+        }
+    }
+    viewer_tell(v, CHANGED_ORBIT | CHANGED_BUSY);
+    run_when_read(v);
+}
+
+static void read_release(viewer_job *base) {
+    read_job *job = (read_job *)base;
+    free(job->path);
+    free(job->name);
+    free(job);
 }
 
 void viewer_orbit_open(viewer *v, int which, const char *path) {
-    viewer_orbit *orbit = &keeper_of(v)->orbit;
-    free(orbit->path[which]);
-    orbit->path[which] = path[0] != '\0' ? viewer_text_copy(path) : NULL;
+    const unsigned slot = which == 0 ? SLOT_MISSION : SLOT_VERSUS;
+    viewer_worker_cancel(v->requests.tables, slot);
     viewer_complain(v, "");
-    viewer_tell(v, CHANGED_ORBIT);
+    if (path[0] != '\0') {
+        read_job *job = g_new0(read_job, 1);
+        job->job = (viewer_job){.run = read_run, .deliver = read_deliver, .release = read_release};
+        job->v = v;
+        job->which = which;
+        job->path = viewer_text_copy(path);
+        atomic_store(&keeper_of(v)->permille, 0);
+        viewer_worker_submit(v->requests.tables, slot, &job->job);
+    } else if (keeper_of(v)->orbit.path[which] != NULL) {
+        choose(v, which, NULL, NULL);
+    }
+    viewer_tell(v, CHANGED_ORBIT | CHANGED_BUSY);
+    run_when_read(v);
 }
 
 /* ---- the run ---- */
@@ -70,6 +178,7 @@ typedef struct orbit_job {
     viewer_job job;
     viewer *v;
     atomic_int *permille;
+    unsigned choice;  /* the keeper's, when this was asked for */
     int part, parts;  /* which mission runs, of how many */
     cli_track *track; /* of that mission */
     char *path[2];
@@ -101,7 +210,7 @@ static bool run_one(orbit_job *job, const srp_mission *mission, cli_track *track
     if (status != SRP_OK && !job->cancelled) {
         viewer_words_add_error(&job->problem, &error);
     }
-    job->made.model[job->part] = viewer_text_copy(srp_mission_get_info(mission)->model);
+    job->made.name[job->part] = name_of(job->path[job->part], srp_mission_get_info(mission)->model);
     ++job->part;
     return status == SRP_OK;
 }
@@ -109,7 +218,7 @@ static bool run_one(orbit_job *job, const srp_mission *mission, cli_track *track
 /* Turns tracks into what is shown. */
 static bool make_values(orbit_job *job, cli_track track[2]) {
     viewer_orbit *made = &job->made;
-    made->is_difference = job->parts == 2;
+    made->is_difference = made->is_identical = job->parts == 2;
     made->count = track[0].count;
     made->t = calloc(made->count + 1, sizeof *made->t);
     bool good = made->t != NULL;
@@ -124,7 +233,9 @@ static bool make_values(orbit_job *job, cli_track track[2]) {
         made->value[0][i] = d.x;
         made->value[1][i] = d.y;
         made->value[2][i] = d.z;
-        made->value[3][i] = srp_vec3_norm(d);
+        made->value[3][i] =
+            made->is_difference ? cli_track_distance(&track[0], &track[1], i) : srp_vec3_norm(d);
+        made->is_identical = made->is_identical && made->value[3][i] == 0.0;
     }
     return good;
 }
@@ -174,12 +285,13 @@ static void orbit_run(viewer_job *base) {
 static void orbit_deliver(viewer_job *base) {
     orbit_job *job = (orbit_job *)base;
     viewer *v = job->v;
-    if (job->cancelled) {
+    viewer_orbit *orbit = &keeper_of(v)->orbit;
+    if (job->cancelled || job->choice != keeper_of(v)->choice) {
         viewer_say(v, "The mission was cancelled.");
     } else if (!job->good) {
+        free_rows(orbit);
         viewer_complain(v, job->problem.text);
     } else {
-        viewer_orbit *orbit = &keeper_of(v)->orbit;
         free_result(orbit);
         job->made.path[0] = orbit->path[0];
         job->made.path[1] = orbit->path[1];
@@ -204,14 +316,19 @@ static void orbit_release(viewer_job *base) {
 
 void viewer_orbit_run(viewer *v) {
     keeper *k = keeper_of(v);
+    if (is_reading(v)) {
+        k->run_waits = true;
+        return;
+    }
     if (k->orbit.path[0] == NULL) {
-        viewer_complain(v, "There is no mission yet: open one.");
+        viewer_complain(v, NO_MISSION);
         return;
     }
     orbit_job *job = g_new0(orbit_job, 1);
     job->job = (viewer_job){.run = orbit_run, .deliver = orbit_deliver, .release = orbit_release};
     job->v = v;
     job->permille = &k->permille;
+    job->choice = k->choice;
     job->parts = k->orbit.path[1] != NULL ? 2 : 1;
     job->path[0] = viewer_text_copy(k->orbit.path[0]);
     job->path[1] = viewer_text_copy(k->orbit.path[1]);
@@ -222,31 +339,42 @@ void viewer_orbit_run(viewer *v) {
 }
 
 void viewer_orbit_cancel(viewer *v) {
+    if (is_reading(v)) {
+        viewer_say(v, "The mission that was being read is not taken.");
+    }
+    keeper_of(v)->run_waits = false;
+    viewer_worker_cancel(v->requests.tables, SLOT_MISSION);
+    viewer_worker_cancel(v->requests.tables, SLOT_VERSUS);
     viewer_worker_cancel(v->requests.batch, SLOT_ORBIT);
     viewer_tell(v, CHANGED_ORBIT | CHANGED_BUSY);
 }
 
 /* ---- out ---- */
 
+static void write_rows(FILE *out, const viewer_orbit *orbit) {
+    cli_rows_begin(out, orbit->is_difference);
+    for (size_t i = 0; i < orbit->count; ++i) {
+        cli_rows_put(out, orbit->t[i],
+                     srp_vec3_make(orbit->value[0][i], orbit->value[1][i], orbit->value[2][i]),
+                     orbit->value[3][i]);
+    }
+}
+
 bool viewer_orbit_save(viewer *v, const char *path, viewer_words *problem) {
     const viewer_orbit *orbit = &keeper_of(v)->orbit;
+    cli_text_file file;
     if (orbit->count == 0) {
-        viewer_words_add(problem, "No mission has run yet.");
+        viewer_words_add(problem, orbit->path[0] == NULL
+                                      ? NO_MISSION
+                                      : "The mission has no result yet: run it.");
         return false;
     }
-    GString *text =
-        g_string_new(orbit->is_difference ? "elapsed_s,radial_m,along_m,cross_m,distance_m\n"
-                                          : "elapsed_s,x_m,y_m,z_m,distance_m\n");
-    for (size_t i = 0; i < orbit->count; ++i) {
-        g_string_append_printf(text, "%.17g,%.9g,%.9g,%.9g,%.9g\n", orbit->t[i], orbit->value[0][i],
-                               orbit->value[1][i], orbit->value[2][i], orbit->value[3][i]);
+    viewer_words_listen(problem);
+    int status = cli_text_file_begin(&file, path);
+    if (status == CLI_DONE) {
+        write_rows(file.out, orbit);
+        status = cli_text_file_end(&file);
     }
-    GError *error = NULL;
-    bool good = g_file_set_contents(path, text->str, (gssize)text->len, &error);
-    if (!good) {
-        viewer_words_add(problem, error->message);
-        g_error_free(error);
-    }
-    g_string_free(text, TRUE);
-    return good;
+    viewer_words_listen(NULL);
+    return status == CLI_DONE;
 }

@@ -115,7 +115,7 @@ static void draw(GtkDrawingArea *area, cairo_t *cr, int width, int height, gpoin
     double end = orbit->t[orbit->count - 1], size = fmax(fabs(f.low), fabs(f.high));
     double time = end > 2.0 * 86400.0 ? 86400.0 : end > 7200.0 ? 3600.0 : 1.0;
     double length = size > 5e3 ? 1e3 : 1.0;
-    double room = fmax(0.04 * (f.high - f.low), 1e-12 * (size > 0.0 ? size : 1.0));
+    double room = orbit->is_identical ? 1.0 : fmax(0.04 * (f.high - f.low), 1e-12 * size);
     f.low = (f.low - room) / length;
     f.high = (f.high + room) / length;
     f.t_end = end / time;
@@ -130,6 +130,11 @@ static void draw(GtkDrawingArea *area, cairo_t *cr, int width, int height, gpoin
                                : "s",
               length == 1e3 ? "km" : "m");
     draw_curves(&f, orbit, time, length);
+    if (orbit->is_identical) {
+        gdk_cairo_set_source_rgba(cr, &f.ink);
+        put_text(&f, f.left + 0.5 * f.width, y_of(&f, 0.0) - 8.0, 0.5,
+                 "0 m everywhere: the orbits are identical");
+    }
 }
 
 /* ---- what changes ---- */
@@ -157,19 +162,26 @@ static void show_files(pane *p, const viewer_orbit *orbit) {
 }
 
 static void show_result(pane *p, const viewer_orbit *orbit) {
-    char text[512] = "A mission file describes an orbit (docs: Missions). A second one, of another "
-                     "model of sunlight, is compared with it.";
-    char last[200] = "";
+    char *text = NULL, last[200] = "";
+    if (orbit->path[0] != NULL) {
+        bool two = orbit->path[1] != NULL;
+        text = g_strdup_printf(
+            "%s%s%s: %s%s", orbit->name[0], two ? " → " : "", two ? orbit->name[1] : "",
+            orbit->count > 0 && orbit->is_identical ? "the orbits are identical; " : "",
+            orbit->count > 0 ? orbit->summary : "no result yet");
+    }
     if (orbit->count > 0) {
         size_t end = orbit->count - 1;
-        snprintf(text, sizeof text, "%s%s%s: %s", orbit->model[0],
-                 orbit->is_difference ? " → " : "", orbit->is_difference ? orbit->model[1] : "",
-                 orbit->summary);
         snprintf(last, sizeof last, "at the end: %.9g, %.9g, %.9g m; distance %.9g m",
                  orbit->value[0][end], orbit->value[1][end], orbit->value[2][end],
                  orbit->value[3][end]);
     }
-    gtk_label_set_text(GTK_LABEL(p->facts), text);
+    gtk_label_set_text(GTK_LABEL(p->facts),
+                       text != NULL
+                           ? text
+                           : "A mission file describes an orbit (docs: Missions). A second one, of "
+                             "another model of sunlight, is compared with it.");
+    g_free(text);
     gtk_label_set_text(GTK_LABEL(p->last), last);
     gtk_widget_queue_draw(p->plot);
 }
@@ -242,6 +254,7 @@ GtkWidget *viewer_orbit_tab(viewer *v) {
     gtk_widget_set_margin_start(p->last, 12);
     gtk_widget_set_margin_top(p->facts, 6);
     p->plot = gtk_drawing_area_new();
+    ui_name(p->plot, "Plot of the orbit over time");
     gtk_widget_set_name(p->plot, "orbit");
     gtk_widget_set_hexpand(p->plot, TRUE);
     gtk_widget_set_vexpand(p->plot, TRUE);

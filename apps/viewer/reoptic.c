@@ -96,7 +96,7 @@ static void reoptic_release(viewer_job *base) {
 void viewer_reoptic_request(viewer *v) {
     int at = v->table_shown;
     if (at < 0) {
-        viewer_complain(v, "There is no table yet: compute or open one.");
+        viewer_complain(v, VIEWER_NO_TABLE);
         return;
     }
     if (!viewer_session_table_is_old(v->session, (size_t)at)) {

@@ -3,6 +3,7 @@
 
 #include "exchange.h"
 #include "numbers.h"
+#include "recent.h"
 #include "viewer.h"
 
 #include <math.h>
@@ -15,6 +16,7 @@ void viewer_requests_begin(viewer *v) {
     v->requests.batch = viewer_worker_create("batch", g_main_context_default());
     v->requests.tables = viewer_worker_create("tables", g_main_context_default());
     v->requests.shadows = viewer_worker_create("shadows", g_main_context_default());
+    g_queue_init(&v->requests.to_open);
 }
 
 static const double END_SECONDS = 1.0; /* to wait for what runs */
@@ -34,6 +36,7 @@ bool viewer_requests_end(viewer *v) {
     for (size_t k = 0; k < G_N_ELEMENTS(workers); ++k) {
         viewer_worker_destroy(workers[k]);
     }
+    g_queue_clear_full(&v->requests.to_open, free);
     v->requests.live = v->requests.batch = v->requests.tables = v->requests.shadows = NULL;
     return true;
 }
@@ -82,6 +85,9 @@ static void engine_deliver(viewer_job *base) {
     bool newest = !viewer_worker_is_busy(v->requests.live, SLOT_ENGINE);
     viewer_complain_of_model(v, newest ? engine->problem.text : "");
     viewer_tell(v, CHANGED_ENGINE | CHANGED_FORCE | CHANGED_ARROWS | CHANGED_PROBE | CHANGED_BUSY);
+    if (engine->shape != NULL) {
+        viewer_recent_note(v, engine->shape->path);
+    }
     if (engine->prepared != NULL) {
         viewer_request_force(v);
         request_probe(v);
@@ -374,14 +380,22 @@ static char *command_of(const viewer *v) {
     return viewer_setup_command(v->session->engine->setup, "table", extra, massive ? 8 : 6);
 }
 
+bool viewer_check_engine(viewer *v) {
+    const viewer_engine *engine = v->session->engine;
+    if (engine != NULL && engine->prepared != NULL) {
+        return true;
+    }
+    viewer_complain_of_model(v, engine != NULL && engine->problem.text[0] != '\0'
+                                    ? engine->problem.text
+                                    : VIEWER_NO_SPACECRAFT);
+    return false;
+}
+
 void viewer_request_table(viewer *v) {
     viewer_engine *engine = v->session->engine;
     srp_grid grid;
     srp_error error;
-    if (engine == NULL || engine->prepared == NULL) {
-        viewer_complain(v, engine != NULL && engine->problem.text[0] != '\0'
-                               ? engine->problem.text
-                               : "There is no spacecraft yet: open one.");
+    if (!viewer_check_engine(v)) {
         return;
     }
     if (srp_grid_from_steps(v->az_step_deg, v->el_step_deg, &grid, &error) != SRP_OK) {

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What is computed beside the window: engines and forces at once, tables and what else takes long
- * on a second thread, and what is made of tables on a third. */
+ * on a second thread, and what is made of tables, or read, on a third. */
 #ifndef SRP_VIEWER_REQUESTS_H
 #define SRP_VIEWER_REQUESTS_H
 
+#include "words.h"
 #include "worker.h"
 
 #include <stdatomic.h>
@@ -34,14 +35,18 @@ typedef struct viewer_progress {
 
 enum { SLOT_ENGINE, SLOT_FORCE };                      /* of `live` */
 enum { SLOT_TABLE, SLOT_ORBIT, SLOT_FIT, SLOT_PROBE }; /* of `batch` */
-enum { SLOT_COMPARISON, SLOT_REOPTIC };                /* of `tables` */
+/* Of `tables`; SLOT_MISSION: the first mission, and SLOT_VERSUS: the second. */
+enum { SLOT_COMPARISON, SLOT_REOPTIC, SLOT_OPENING, SLOT_MISSION, SLOT_VERSUS };
 
 typedef struct viewer_requests {
     viewer_worker *live, *batch;
-    viewer_worker *tables;  /* what is done to tables that are there, and takes seconds at most */
+    viewer_worker *tables;  /* what is done with tables, and missions that are read: takes seconds
+                               at most */
     viewer_worker *shadows; /* the picture's */
     viewer_progress table;
     viewer_probe probe;
+    GQueue to_open;          /* paths of tables, each freed by free() */
+    viewer_words not_opened; /* of those that were asked for together: what went wrong */
 } viewer_requests;
 
 void viewer_requests_begin(viewer *v);
@@ -55,6 +60,8 @@ bool viewer_requests_busy(const viewer *v);
 void viewer_request_engine(viewer *v, bool reload);
 /* The Sun has moved. */
 void viewer_request_force(viewer *v);
+/* Whether there is something to compute with; says why not. */
+bool viewer_check_engine(viewer *v);
 /* A table of the engine, with the steps of the viewer. */
 void viewer_request_table(viewer *v);
 void viewer_cancel_table(viewer *v);

@@ -3,6 +3,7 @@
 
 #include "scene_light.h"
 #include "scene_look.h"
+#include "turning.h"
 #include "ui.h"
 
 #include <srp/table.h>
@@ -18,7 +19,6 @@ typedef struct area {
     srp_renderer *renderer;
     viewer_engine *drawn; /* whose mesh the renderer has */
     viewer_look look;
-    double drag_az, drag_el;
     /* A large spacecraft is drawn simplified until nothing has moved for a moment. */
     scene_light *light;
     bool moving, coarse; /* something moved just now; the picture that is shown is simplified */
@@ -354,44 +354,28 @@ static void draw_marks(GtkDrawingArea *widget, cairo_t *cr, int width, int heigh
     }
 }
 
-/* ---- mouse ---- */
+/* ---- turning and scrolling ---- */
 
-static void on_drag_begin(GtkGestureDrag *drag, double x, double y, gpointer user) {
-    area *a = user;
-    (void)drag, (void)x, (void)y;
-    a->drag_az = a->v->camera.az_deg;
-    a->drag_el = a->v->camera.el_deg;
+static void look_from(GtkWidget *widget, gpointer user, double *az_deg, double *el_deg) {
+    const area *a = user;
+    (void)widget;
+    *az_deg = a->v->camera.az_deg;
+    *el_deg = a->v->camera.el_deg;
 }
 
-static void turn_camera(area *a, double az_deg, double el_deg) {
+static void turn_camera(GtkWidget *widget, gpointer user, double az_deg, double el_deg) {
+    const area *a = user;
+    (void)widget;
     viewer_set_camera(a->v, fmod(az_deg, 360.0), el_deg, a->v->camera.zoom);
 }
 
-static void on_drag(GtkGestureDrag *drag, double dx, double dy, gpointer user) {
-    area *a = user;
-    (void)drag;
-    turn_camera(a, a->drag_az - 0.4 * dx, a->drag_el + 0.4 * dy);
-}
+static const viewer_turning CAMERA = {look_from, turn_camera, -1.0};
 
 static gboolean on_scroll(GtkEventControllerScroll *scroll, double dx, double dy, gpointer user) {
     area *a = user;
     (void)scroll, (void)dx;
     const viewer_camera *camera = &a->v->camera;
     viewer_set_camera(a->v, camera->az_deg, camera->el_deg, camera->zoom * pow(1.12, -dy));
-    return TRUE;
-}
-
-/* Arrow keys do what dragging does. */
-static gboolean on_key(GtkEventControllerKey *keys, guint key, guint code, GdkModifierType held,
-                       gpointer user) {
-    area *a = user;
-    (void)keys, (void)code;
-    double across = (key == GDK_KEY_Left) - (key == GDK_KEY_Right);
-    double up = (key == GDK_KEY_Up) - (key == GDK_KEY_Down);
-    if ((held & gtk_accelerator_get_default_mod_mask()) != 0 || (across == 0.0 && up == 0.0)) {
-        return FALSE;
-    }
-    turn_camera(a, a->v->camera.az_deg + 5.0 * across, a->v->camera.el_deg + 5.0 * up);
     return TRUE;
 }
 
@@ -480,6 +464,15 @@ static void on_unmap(GtkWidget *widget, gpointer user) {
     a->v->picture_is_old = false;
 }
 
+/* What GTK draws around the focus makes it forget the picture. */
+static void on_state(GtkWidget *widget, GtkStateFlags before, gpointer user) {
+    const GtkStateFlags focus = GTK_STATE_FLAG_FOCUSED | GTK_STATE_FLAG_FOCUS_VISIBLE;
+    (void)user;
+    if (((gtk_widget_get_state_flags(widget) ^ before) & focus) != 0) {
+        gtk_gl_area_queue_render(GTK_GL_AREA(widget));
+    }
+}
+
 static void free_area(gpointer user) {
     area *a = user;
     g_clear_handle_id(&a->settle, g_source_remove);
@@ -502,24 +495,19 @@ GtkWidget *viewer_scene_area(viewer *v) {
     gtk_gl_area_set_auto_render(GTK_GL_AREA(a->gl), FALSE);
     gtk_widget_set_name(a->gl, "scene");
     ui_name(a->gl, "Picture of the spacecraft; arrow keys turn the camera");
-    gtk_widget_set_focusable(a->gl, TRUE);
     g_signal_connect(a->gl, "realize", G_CALLBACK(on_realize), a);
     g_signal_connect(a->gl, "unrealize", G_CALLBACK(on_unrealize), a);
     g_signal_connect_after(a->gl, "map", G_CALLBACK(on_map), a);
     g_signal_connect(a->gl, "render", G_CALLBACK(on_render), a);
+    g_signal_connect(a->gl, "state-flags-changed", G_CALLBACK(on_state), a);
     g_signal_connect(a->gl, "unmap", G_CALLBACK(on_unmap), a);
-    GtkGesture *drag = gtk_gesture_drag_new();
-    g_signal_connect(drag, "drag-begin", G_CALLBACK(on_drag_begin), a);
-    g_signal_connect(drag, "drag-update", G_CALLBACK(on_drag), a);
-    gtk_widget_add_controller(a->gl, GTK_EVENT_CONTROLLER(drag));
+    viewer_turning_add(a->gl, &CAMERA, a);
     GtkEventController *scroll =
         gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
     g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), a);
     gtk_widget_add_controller(a->gl, scroll);
-    GtkEventController *keys = gtk_event_controller_key_new();
-    g_signal_connect(keys, "key-pressed", G_CALLBACK(on_key), a);
-    gtk_widget_add_controller(a->gl, keys);
     a->marks = gtk_drawing_area_new();
+    ui_name(a->marks, "Axes, arrows and scale of the picture");
     gtk_widget_set_can_target(a->marks, FALSE);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(a->marks), draw_marks, a, NULL);
     a->trouble = ui_label("", "dim");
@@ -531,6 +519,7 @@ GtkWidget *viewer_scene_area(viewer *v) {
     gtk_widget_set_halign(a->trouble, GTK_ALIGN_CENTER);
     gtk_widget_set_visible(a->trouble, FALSE);
     GtkWidget *overlay = gtk_overlay_new();
+    gtk_widget_set_name(overlay, "scene-picture");
     gtk_widget_set_size_request(overlay, 320, 170);
     gtk_overlay_set_child(GTK_OVERLAY(overlay), a->gl);
     gtk_overlay_add_overlay(GTK_OVERLAY(overlay), a->marks);

@@ -168,16 +168,17 @@ static void add_head(GtkGrid *grid, const char *text, int column, int row) {
 /* Columns of components, with a heading each, from row `at` on; below the first its error. */
 static void add_vectors(pane *p, GtkGrid *grid, int at, const char *const *heads, const int *which,
                         int count, GtkWidget *error) {
-    static const char *const rows[] = {"x", "y", "z", "| |", "±"};
+    static const char *const rows[] = {"x", "y", "z", "length", "±"};
     for (int k = 0; k < 5; ++k) {
         gtk_grid_attach(grid, ui_label(rows[k], "dim"), 0, at + 1 + k, 1, 1);
     }
     for (int c = 0; c < count; ++c) {
         add_head(grid, heads[c], 1 + c, at);
         for (int k = 0; k < 4; ++k) {
-            char name[40];
+            char name[40], words[64];
             snprintf(name, sizeof name, "%s-%c", VECTOR_NAME[which[c]], "xyzn"[k]);
-            p->vector[which[c]][k] = ui_value(name);
+            snprintf(words, sizeof words, "%s, %s", heads[c], k < 3 ? rows[k] : "length");
+            p->vector[which[c]][k] = ui_value(name, words);
             gtk_label_set_width_chars(GTK_LABEL(p->vector[which[c]][k]), 16);
             gtk_widget_set_hexpand(p->vector[which[c]][k], TRUE);
             gtk_grid_attach(grid, p->vector[which[c]][k], 1 + c, at + 1 + k, 1, 1);
@@ -195,9 +196,9 @@ static GtkWidget *make_numbers(pane *p) {
     GtkWidget *widget = gtk_grid_new();
     GtkGrid *grid = GTK_GRID(widget);
     gtk_grid_set_column_spacing(grid, 10);
-    p->error[0] = ui_value("f-error");
-    p->error[1] = ui_value("t-error");
-    p->lit = ui_value("lit-area");
+    p->error[0] = ui_value("f-error", "Error of f [m²]");
+    p->error[1] = ui_value("t-error", "Error of t [m³]");
+    p->lit = ui_value("lit-area", "Lit area [m²]");
     add_vectors(p, grid, 0, pushes, push, 3, p->error[0]);
     add_vectors(p, grid, below, turns, turn, 2, p->error[1]);
     add_head(grid, "Lit area [m²]", 3, below);

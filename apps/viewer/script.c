@@ -3,6 +3,7 @@
 
 #include "actions.h"
 #include "audit.h"
+#include "numbers.h"
 #include "screenshot.h"
 #include "ui.h"
 
@@ -105,8 +106,9 @@ static char *text_of(GtkWidget *widget) {
     if (GTK_IS_EDITABLE(widget)) {
         return g_strdup(gtk_editable_get_text(GTK_EDITABLE(widget)));
     }
-    if (GTK_IS_BUTTON(widget)) {
-        return g_strdup(gtk_button_get_label(GTK_BUTTON(widget)));
+    if (GTK_IS_BUTTON(widget)) { /* as it is shown */
+        GtkWidget *words = gtk_button_get_child(GTK_BUTTON(widget));
+        return g_strdup(GTK_IS_LABEL(words) ? gtk_label_get_text(GTK_LABEL(words)) : "");
     }
     if (GTK_IS_MENU_BUTTON(widget)) {
         return g_strdup(gtk_menu_button_get_label(GTK_MENU_BUTTON(widget)));
@@ -171,14 +173,97 @@ static gboolean expect_text(script *s, char *words) {
     return good;
 }
 
+static gboolean print_place(script *s, char *words) {
+    char *rest;
+    graphene_rect_t bounds;
+    GtkWidget *widget = find_widget(s, words, &rest);
+    if (widget == NULL) {
+        return FALSE;
+    }
+    if (!gtk_widget_compute_bounds(widget, GTK_WIDGET(s->v->window), &bounds)) {
+        return fail(s, "the widget is not in the window");
+    }
+    g_print("place of %s: %.0f %.0f %.0f %.0f\n", words, (double)bounds.origin.x,
+            (double)bounds.origin.y, (double)bounds.size.width, (double)bounds.size.height);
+    return TRUE;
+}
+
 static gboolean enter_text(script *s, char *words) {
     char *text;
     GtkWidget *widget = find_widget(s, words, &text);
-    if (widget == NULL || !GTK_IS_ENTRY(widget)) {
-        return widget == NULL ? FALSE : fail(s, "expected an entry");
+    if (widget == NULL || !(GTK_IS_ENTRY(widget) || GTK_IS_SPIN_BUTTON(widget))) {
+        return widget == NULL ? FALSE : fail(s, "expected an entry or a number");
     }
     gtk_editable_set_text(GTK_EDITABLE(widget), text != NULL ? text : "");
-    g_signal_emit_by_name(widget, "activate");
+    if (GTK_IS_SPIN_BUTTON(widget)) {
+        gtk_spin_button_update(GTK_SPIN_BUTTON(widget));
+    } else {
+        g_signal_emit_by_name(widget, "activate");
+    }
+    return TRUE;
+}
+
+/* As the Tab key does. */
+static gboolean focus_widget(script *s, char *words) {
+    char *rest;
+    GtkWidget *widget = find_widget(s, words, &rest);
+    if (widget == NULL || !gtk_widget_grab_focus(widget)) {
+        return widget == NULL ? FALSE : fail(s, "the widget takes no focus");
+    }
+    gtk_window_set_focus_visible(s->v->window, TRUE);
+    return TRUE;
+}
+
+/* ---- keys and pointer ---- */
+
+/* A controller of this type; NULL: the widget has none. */
+static GtkEventController *find_controller(GtkWidget *widget, GType type) {
+    GListModel *all = gtk_widget_observe_controllers(widget);
+    GtkEventController *found = NULL;
+    for (guint i = 0; found == NULL && i < g_list_model_get_n_items(all); ++i) {
+        GtkEventController *each = g_list_model_get_item(all, i);
+        found = G_TYPE_CHECK_INSTANCE_TYPE(each, type) ? each : NULL;
+        g_object_unref(each); /* the widget holds it */
+    }
+    g_object_unref(all);
+    return found;
+}
+
+static gboolean press_key(script *s, char *words) {
+    char *name;
+    GtkWidget *widget = find_widget(s, words, &name);
+    guint key = name != NULL ? gdk_keyval_from_name(name) : GDK_KEY_VoidSymbol;
+    if (widget == NULL) {
+        return FALSE;
+    }
+    if (key == GDK_KEY_VoidSymbol) {
+        return fail(s, "expected press WIDGET KEY");
+    }
+    GtkEventController *keys = find_controller(widget, GTK_TYPE_EVENT_CONTROLLER_KEY);
+    gboolean taken = FALSE;
+    if (keys == NULL || !gtk_widget_grab_focus(widget)) {
+        return fail(s, "the widget takes no keys");
+    }
+    gtk_window_set_focus_visible(s->v->window, TRUE); /* as a key does */
+    g_signal_emit_by_name(keys, "key-pressed", key, 0, (GdkModifierType)0, &taken);
+    return taken || fail(s, "the widget does not take this key");
+}
+
+static gboolean move_pointer(script *s, char *words) {
+    char *place;
+    double at[2];
+    GtkWidget *widget = find_widget(s, words, &place);
+    if (widget == NULL) {
+        return FALSE;
+    }
+    if (place == NULL || !cli_read_numbers(place, 2, at)) {
+        return fail(s, "expected point WIDGET X,Y");
+    }
+    GtkEventController *motion = find_controller(widget, GTK_TYPE_EVENT_CONTROLLER_MOTION);
+    if (motion == NULL) {
+        return fail(s, "the widget does not look at the pointer");
+    }
+    g_signal_emit_by_name(motion, "motion", at[0], at[1]);
     return TRUE;
 }
 
@@ -265,6 +350,18 @@ static gboolean step(script *s, char *line) {
     }
     if (strcmp(line, "enter") == 0) {
         return enter_text(s, rest);
+    }
+    if (strcmp(line, "place") == 0) {
+        return print_place(s, rest);
+    }
+    if (strcmp(line, "press") == 0) {
+        return press_key(s, rest);
+    }
+    if (strcmp(line, "point") == 0) {
+        return move_pointer(s, rest);
+    }
+    if (strcmp(line, "focus") == 0) {
+        return focus_widget(s, rest);
     }
     if (strcmp(line, "stall") == 0) {
         g_print("stall: %.0f ms\n", 1e3 * s->stall);

@@ -9,7 +9,11 @@
  *     resize WIDTH HEIGHT      of the window
  *     print WIDGET             the widget's text, "WIDGET: text", on standard output
  *     expect WIDGET TEXT       ends the program with status 1 unless the widget's text has TEXT
- *     enter WIDGET TEXT        writes into an entry and leaves it
+ *     place WIDGET             where it is in the window's picture, "place of WIDGET: X Y W H"
+ *     enter WIDGET TEXT        writes into an entry or a number and leaves it
+ *     focus WIDGET             leads the keyboard there, as Tab does
+ *     press WIDGET KEY         gives it the focus and a key, "Left"
+ *     point WIDGET X,Y         moves the pointer to this pixel of it
  *     screenshot FILE          as the action, when what there is by then is drawn
  *     note TEXT                on standard output
  *     # ...                    nothing

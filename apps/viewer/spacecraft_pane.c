@@ -77,26 +77,24 @@ static void on_optics(GtkWidget *widget, gpointer user) {
         return;
     }
     char s[CLI_NUMBER_SIZE], d[CLI_NUMBER_SIZE];
-    /* As many digits as the buttons show. */
-    cli_write_number(round(1e4 * gtk_spin_button_get_value(GTK_SPIN_BUTTON(r->rho_s))) / 1e4, s);
-    cli_write_number(round(1e4 * gtk_spin_button_get_value(GTK_SPIN_BUTTON(r->rho_d))) / 1e4, d);
+    cli_write_number(ui_number_value(r->rho_s), s);
+    cli_write_number(ui_number_value(r->rho_d), d);
     bool one_sided = gtk_check_button_get_active(GTK_CHECK_BUTTON(r->one_sided));
     char *text = g_strdup_printf("%s=%s,%s%s", r->name, s, d, one_sided ? ",one-sided" : "");
     viewer_act_text(r->p->v, "material", text);
     g_free(text);
 }
 
-static GtkWidget *share(row *r, const char *kind, double value) {
-    GtkWidget *spin = gtk_spin_button_new_with_range(0.0, 1.0, 0.01);
+static GtkWidget *share(row *r, const char *kind, const char *symbol, double value) {
     char *name = g_strdup_printf("%s-%s", kind, r->name);
-    gtk_spin_button_set_digits(GTK_SPIN_BUTTON(spin), 4);
-    gtk_spin_button_set_value(GTK_SPIN_BUTTON(spin), value);
-    gtk_editable_set_width_chars(GTK_EDITABLE(spin), 6);
-    gtk_widget_set_name(spin, name);
-    ui_name(spin, name);
-    g_signal_connect(spin, "value-changed", G_CALLBACK(on_optics), r);
+    char *words = g_strdup_printf("%s of %s", symbol, r->name);
+    GtkWidget *number =
+        ui_number(r->p->v, name, words, (ui_range){0.0, 1.0, 0.01, false}, on_optics, r);
+    gtk_editable_set_width_chars(GTK_EDITABLE(number), 10);
+    ui_number_show(number, value);
+    g_free(words);
     g_free(name);
-    return spin;
+    return number;
 }
 
 static void add_row(pane *p, const viewer_engine *engine, size_t index, int at) {
@@ -115,10 +113,10 @@ static void add_row(pane *p, const viewer_engine *engine, size_t index, int at) 
     GtkWidget *size = ui_label(area, "dim");
     gtk_label_set_xalign(GTK_LABEL(size), 1.0f);
     g_free(area);
-    r->rho_s = share(r, "rho-s", optics.rho_s);
-    r->rho_d = share(r, "rho-d", optics.rho_d);
+    r->rho_s = share(r, "rho-s", "ρ specular", optics.rho_s);
+    r->rho_d = share(r, "rho-d", "ρ diffuse", optics.rho_d);
     r->one_sided = gtk_check_button_new();
-    char *words = g_strconcat("one-sided ", r->name, NULL);
+    char *words = g_strconcat(r->name, " is one-sided", NULL);
     ui_name(r->one_sided, words);
     g_free(words);
     gtk_widget_set_halign(r->one_sided, GTK_ALIGN_CENTER);
@@ -136,21 +134,20 @@ static void add_row(pane *p, const viewer_engine *engine, size_t index, int at) 
     r->quiet = false;
 }
 
-/* Shows what came from elsewhere, where the user is not typing. */
+/* What was said last, which the engine may not have heard of yet. */
+static bool optics_of(const row *r, const viewer_engine *engine, size_t index, srp_optics *out) {
+    return viewer_setup_find_material(r->p->v->session->setup, r->name, out) ||
+           viewer_engine_optics(engine, index, out);
+}
+
 static void refresh_row(row *r, const viewer_engine *engine, size_t index) {
     srp_optics optics;
-    if (!viewer_engine_optics(engine, index, &optics)) {
+    if (!optics_of(r, engine, index, &optics)) {
         return;
     }
-    GtkSpinButton *spin[2] = {GTK_SPIN_BUTTON(r->rho_s), GTK_SPIN_BUTTON(r->rho_d)};
-    const double value[2] = {optics.rho_s, optics.rho_d};
     r->quiet = true;
-    for (int k = 0; k < 2; ++k) {
-        bool typing = gtk_widget_get_state_flags(GTK_WIDGET(spin[k])) & GTK_STATE_FLAG_FOCUS_WITHIN;
-        if (!typing && fabs(gtk_spin_button_get_value(spin[k]) - value[k]) > 5e-5) {
-            gtk_spin_button_set_value(spin[k], value[k]);
-        }
-    }
+    ui_number_show(r->rho_s, optics.rho_s);
+    ui_number_show(r->rho_d, optics.rho_d);
     gtk_check_button_set_active(GTK_CHECK_BUTTON(r->one_sided), optics.one_sided);
     r->quiet = false;
 }
@@ -231,9 +228,7 @@ static void show_setup(pane *p) {
         }
     }
     const char *plates = setup->model_option[MODEL_PLATES];
-    char *file = plates != NULL ? g_path_get_basename(plates) : g_strdup("_Plates…");
-    gtk_button_set_label(GTK_BUTTON(p->plates), file);
-    g_free(file);
+    ui_button_show_file(p->plates, plates, "_Plates…");
     const srp_method *method = viewer_setup_method(setup);
     gtk_widget_set_visible(p->plates, method != NULL && (method->shapes & SRP_SHAPE_PLATES) != 0);
 }
@@ -242,6 +237,9 @@ static void on_changed(void *user, unsigned what) {
     pane *p = user;
     if ((what & CHANGED_SETUP) != 0) {
         show_setup(p);
+        if (p->shown != NULL && p->shown->shape != NULL) {
+            refresh_rows(p, p->shown);
+        }
     }
     if ((what & CHANGED_ENGINE) != 0) {
         viewer_engine *engine = p->v->session->engine;
@@ -259,15 +257,14 @@ static void free_pane(gpointer user) {
 }
 
 static void make_popovers(pane *p) {
-    p->report = gtk_menu_button_new();
+    p->report = ui_menu_button("Mesh");
     p->report_words = ui_label("", NULL);
     gtk_widget_set_name(p->report, "report");
     gtk_widget_set_name(p->report_words, "report-words");
     gtk_label_set_wrap(GTK_LABEL(p->report_words), TRUE);
     gtk_label_set_max_width_chars(GTK_LABEL(p->report_words), 70);
-    gtk_menu_button_set_use_underline(GTK_MENU_BUTTON(p->report), TRUE);
     gtk_menu_button_set_popover(GTK_MENU_BUTTON(p->report), ui_popover(p->report_words, 420));
-    p->materials = gtk_menu_button_new();
+    p->materials = ui_menu_button("_Materials");
     p->material_rows = gtk_grid_new();
     gtk_grid_set_column_spacing(GTK_GRID(p->material_rows), 10);
     gtk_grid_set_row_spacing(GTK_GRID(p->material_rows), 4);
@@ -277,8 +274,6 @@ static void make_popovers(pane *p) {
     gtk_widget_set_halign(reset, GTK_ALIGN_END);
     gtk_box_append(GTK_BOX(box), p->material_rows);
     gtk_box_append(GTK_BOX(box), reset);
-    gtk_menu_button_set_label(GTK_MENU_BUTTON(p->materials), "_Materials");
-    gtk_menu_button_set_use_underline(GTK_MENU_BUTTON(p->materials), TRUE);
     gtk_menu_button_set_popover(GTK_MENU_BUTTON(p->materials), ui_popover(box, 420));
     gtk_widget_set_name(p->materials, "materials");
 }

@@ -1,69 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "state.h"
 
+#include "recent.h"
+
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 
-enum { RECENT_MAX = 8 };
-
-/* Of the whole program: the menu outlives windows. */
 static const char WINDOW[] = "window", METHOD[] = "method", LIGHT[] = "spacecraft",
-                  TABLE[] = "table", RECENT[] = "recent";
+                  TABLE[] = "table";
 
+/* GLib takes a relative $XDG_CONFIG_HOME, too, which the specification has ignored. */
 static char *file_name(void) {
-    return g_build_filename(g_get_user_config_dir(), "srpcore", "viewer.ini", NULL);
-}
-
-static GMenu *recent_menu(viewer *v) {
-    GMenu *menu = g_object_get_data(G_OBJECT(v->application), "recent");
-    if (menu == NULL) {
-        menu = g_menu_new();
-        g_object_set_data_full(G_OBJECT(v->application), "recent", menu, g_object_unref);
+    const char *home = g_getenv("XDG_CONFIG_HOME");
+    if (home != NULL && g_path_is_absolute(home)) {
+        return g_build_filename(home, "srpcore", "viewer.ini", NULL);
     }
-    return menu;
-}
-
-GMenuModel *viewer_state_recent_menu(viewer *v) {
-    return G_MENU_MODEL(recent_menu(v));
-}
-
-static char *recent_path(GMenu *menu, int at) {
-    char *path = NULL;
-    g_menu_model_get_item_attribute(G_MENU_MODEL(menu), at, G_MENU_ATTRIBUTE_TARGET, "s", &path);
-    return path;
-}
-
-static void put(GMenu *menu, int at, const char *path) {
-    char *base = g_path_get_basename(path), *label = g_utf8_make_valid(base, -1);
-    char **parts = g_strsplit(label, "_", -1);
-    char *plain = g_strjoinv("__", parts); /* no mnemonics */
-    GMenuItem *item = g_menu_item_new(plain, NULL);
-    g_menu_item_set_action_and_target(item, "win.open", "s", path);
-    g_menu_insert_item(menu, at, item);
-    g_object_unref(item);
-    g_free(plain);
-    g_strfreev(parts);
-    g_free(label);
-    g_free(base);
-}
-
-void viewer_state_note_recent(viewer *v, const char *path) {
-    GMenu *menu = recent_menu(v);
-    /* How many of the list were opened by this window; they stand first. */
-    int noted = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(menu), "noted"));
-    if (!g_utf8_validate(path, -1, NULL)) {
-        return; /* a menu cannot name it */
-    }
-    for (int i = g_menu_model_get_n_items(G_MENU_MODEL(menu)) - 1; i >= 0; --i) {
-        char *old = recent_path(menu, i);
-        if (g_strcmp0(old, path) == 0 || i >= RECENT_MAX - 1) {
-            g_menu_remove(menu, i);
-            noted -= i < noted;
-        }
-        g_free(old);
-    }
-    put(menu, 0, path);
-    g_object_set_data(G_OBJECT(menu), "noted", GINT_TO_POINTER(noted + 1));
+    return g_build_filename(g_get_home_dir(), ".config", "srpcore", "viewer.ini", NULL);
 }
 
 /* ---- reading ---- */
@@ -104,7 +57,7 @@ static void load_method(viewer *v, GKeyFile *file) {
 
 static double number(GKeyFile *file, const char *key, double otherwise) {
     double value = g_key_file_get_double(file, TABLE, key, NULL);
-    return value >= 0.01 && value <= 180.0 ? value : otherwise;
+    return value >= VIEWER_STEP_MIN_DEG && value <= VIEWER_STEP_MAX_DEG ? value : otherwise;
 }
 
 void viewer_state_load(viewer *v) {
@@ -115,12 +68,7 @@ void viewer_state_load(viewer *v) {
         load_method(v, file);
         v->az_step_deg = number(file, "az-step", v->az_step_deg);
         v->el_step_deg = number(file, "el-step", v->el_step_deg);
-        char **paths = g_key_file_get_string_list(file, RECENT, "files", NULL, NULL);
-        GMenu *menu = recent_menu(v);
-        for (int i = 0; paths != NULL && paths[i] != NULL && i < RECENT_MAX; ++i) {
-            put(menu, i, paths[i]);
-        }
-        g_strfreev(paths);
+        viewer_recent_load(v, file);
         viewer_tell(v, CHANGED_SETUP);
     }
     g_free(name);
@@ -129,29 +77,21 @@ void viewer_state_load(viewer *v) {
 
 /* ---- writing ---- */
 
-/* Ours, newest first, then what another window has written since this one read the file. */
-static void save_recent(viewer *v, GKeyFile *file) {
-    GMenu *menu = recent_menu(v);
-    int noted = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(menu), "noted"));
-    char **theirs = g_key_file_get_string_list(file, RECENT, "files", NULL, NULL);
-    GPtrArray *paths = g_ptr_array_new_with_free_func(g_free);
-    for (int i = 0; i < noted && i < g_menu_model_get_n_items(G_MENU_MODEL(menu)); ++i) {
-        g_ptr_array_add(paths, recent_path(menu, i));
+static void write_file(GKeyFile *file, const char *name) {
+    GError *error = NULL;
+    char *directory = g_path_get_dirname(name);
+    if (g_mkdir_with_parents(directory, 0700) != 0) {
+        g_printerr("srp-viewer: nothing is remembered: %s: %s\n", directory, g_strerror(errno));
+    } else if (!g_key_file_save_to_file(file, name, &error)) {
+        g_printerr("srp-viewer: nothing is remembered: %s\n", error->message);
+        g_error_free(error);
     }
-    for (int i = 0; theirs != NULL && theirs[i] != NULL; ++i) {
-        if (!g_ptr_array_find_with_equal_func(paths, theirs[i], g_str_equal, NULL)) {
-            g_ptr_array_add(paths, g_strdup(theirs[i]));
-        }
-    }
-    g_key_file_set_string_list(file, RECENT, "files", (const char *const *)paths->pdata,
-                               MIN(paths->len, (guint)RECENT_MAX));
-    g_ptr_array_unref(paths);
-    g_strfreev(theirs);
+    g_free(directory);
 }
 
 void viewer_state_save(viewer *v) {
     GKeyFile *file = g_key_file_new();
-    char *name = file_name(), *directory = g_path_get_dirname(name);
+    char *name = file_name();
     int width, height;
     gboolean dark;
     (void)g_key_file_load_from_file(file, name, G_KEY_FILE_NONE, NULL);
@@ -176,11 +116,8 @@ void viewer_state_save(viewer *v) {
     }
     g_key_file_set_double(file, TABLE, "az-step", v->az_step_deg);
     g_key_file_set_double(file, TABLE, "el-step", v->el_step_deg);
-    save_recent(v, file);
-    if (g_mkdir_with_parents(directory, 0700) == 0) {
-        (void)g_key_file_save_to_file(file, name, NULL);
-    }
-    g_free(directory);
+    viewer_recent_save(v, file);
+    write_file(file, name);
     g_free(name);
     g_key_file_unref(file);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What is remembered from one run to the next: $XDG_CONFIG_HOME/srpcore/viewer.ini, a key file. */
+/* What is remembered from one run to the next: $XDG_CONFIG_HOME/srpcore/viewer.ini, a key file; in
+ * ~/.config where that is not an absolute path. */
 #ifndef SRP_VIEWER_STATE_H
 #define SRP_VIEWER_STATE_H
 
@@ -7,12 +8,7 @@
 
 /* Takes what the last run left; a file that is not there or damaged is as good as none. */
 void viewer_state_load(viewer *v);
-/* Writes it; complains of nothing, since there is nothing to be done about it. */
+/* Writes it; what hinders that is said on stderr, since the window closes. */
 void viewer_state_save(viewer *v);
-
-/* Puts a file at the head of the recent ones. */
-void viewer_state_note_recent(viewer *v, const char *path);
-/* The recent files as a menu of "win.open"; it follows them. */
-GMenuModel *viewer_state_recent_menu(viewer *v);
 
 #endif

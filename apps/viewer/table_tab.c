@@ -118,12 +118,10 @@ static void on_choice(GtkDropDown *choice, GParamSpec *spec, gpointer user) {
 
 /* ---- controls ---- */
 
-static void on_step(GtkSpinButton *spin, gpointer user) {
+static void on_step(GtkWidget *number, void *user) {
     pane *p = user;
-    if (!p->quiet) {
-        viewer_act(p->v, GTK_WIDGET(spin) == p->az_step ? "az-step" : "el-step",
-                   g_variant_new_double(gtk_spin_button_get_value(spin)));
-    }
+    viewer_act(p->v, number == p->az_step ? "az-step" : "el-step",
+               g_variant_new_double(ui_number_value(number)));
 }
 
 static void on_together(GtkCheckButton *check, gpointer user) {
@@ -133,21 +131,18 @@ static void on_together(GtkCheckButton *check, gpointer user) {
     }
 }
 
-static GtkWidget *step_button(pane *p, const char *name) {
-    GtkWidget *spin = gtk_spin_button_new_with_range(0.5, 90.0, 0.5);
-    gtk_widget_set_name(spin, name);
-    gtk_spin_button_set_digits(GTK_SPIN_BUTTON(spin), 1);
-    gtk_editable_set_width_chars(GTK_EDITABLE(spin), 4);
-    gtk_widget_set_valign(spin, GTK_ALIGN_CENTER);
-    g_signal_connect(spin, "value-changed", G_CALLBACK(on_step), p);
-    return spin;
+static GtkWidget *step_button(pane *p, const char *name, const char *words) {
+    const ui_range steps = {VIEWER_STEP_MIN_DEG, VIEWER_STEP_MAX_DEG, 0.5, false};
+    GtkWidget *number = ui_number(p->v, name, words, steps, on_step, p);
+    gtk_editable_set_width_chars(GTK_EDITABLE(number), 4);
+    return number;
 }
 
 static GtkWidget *make_strip(pane *p) {
     GtkWidget *box = ui_strip(8);
     GtkBox *strip = GTK_BOX(box);
-    p->az_step = step_button(p, "az-step");
-    p->el_step = step_button(p, "el-step");
+    p->az_step = step_button(p, "az-step", "Step az");
+    p->el_step = step_button(p, "el-step", "Step el");
     p->start = ui_button("_Start", "compute-table", "Compute a table of all directions (Ctrl+T)");
     p->cancel = ui_button("C_ancel", "cancel", "Stop (Ctrl+.)");
     p->progress = ui_progress("progress", "Progress of the table");
@@ -158,7 +153,7 @@ static GtkWidget *make_strip(pane *p) {
                            "This table is of other optics than Materials has now: make one of "
                            "those from it, without tracing light again");
     gtk_widget_set_name(p->reoptic, "reoptic");
-    p->together = gtk_check_button_new_with_mnemonic("Turn toget_her");
+    p->together = ui_check("Turn toget_her");
     g_signal_connect(p->together, "toggled", G_CALLBACK(on_together), p);
     gtk_box_append(strip, ui_pair(ui_mnemonic("Step a_z [°]", p->az_step), p->az_step));
     gtk_box_append(strip, ui_pair(ui_mnemonic("e_l [°]", p->el_step), p->el_step));
@@ -183,8 +178,8 @@ static void on_changed(void *user, unsigned what) {
     pane *p = user;
     p->quiet = true;
     if ((what & CHANGED_SETUP) != 0) {
-        gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->az_step), p->v->az_step_deg);
-        gtk_spin_button_set_value(GTK_SPIN_BUTTON(p->el_step), p->v->el_step_deg);
+        ui_number_show(p->az_step, p->v->az_step_deg);
+        ui_number_show(p->el_step, p->v->el_step_deg);
     }
     if ((what & CHANGED_VIEW) != 0) {
         gtk_check_button_set_active(GTK_CHECK_BUTTON(p->together), p->v->charts_together);

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "ui.h"
 
+#include "numbers.h"
 #include "wrap.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,8 +20,18 @@ static void add_classes(GtkWidget *widget, const char *classes) {
     g_strfreev(each);
 }
 
+/* GTK calls an empty label "GtkLabel". */
+static void on_label_text(GtkLabel *label, GParamSpec *spec, gpointer user) {
+    (void)spec, (void)user;
+    gtk_accessible_update_state(GTK_ACCESSIBLE(label), GTK_ACCESSIBLE_STATE_HIDDEN,
+                                gtk_label_get_text(label)[0] == '\0', -1);
+}
+
 GtkWidget *ui_label(const char *text, const char *classes) {
-    GtkWidget *label = gtk_label_new(text);
+    GtkWidget *label = gtk_label_new(NULL);
+    g_signal_connect(label, "notify::label", G_CALLBACK(on_label_text), NULL);
+    gtk_label_set_text(GTK_LABEL(label), text);
+    on_label_text(GTK_LABEL(label), NULL, NULL);
     gtk_label_set_xalign(GTK_LABEL(label), 0.0f);
     add_classes(label, classes);
     return label;
@@ -34,8 +46,18 @@ GtkWidget *ui_paragraph(const char *name, const char *classes, int width) {
     return label;
 }
 
-GtkWidget *ui_value(const char *name) {
+static void on_value_text(GtkWidget *label, GParamSpec *spec, gpointer user) {
+    (void)spec, (void)user;
+    const char *words = g_object_get_data(G_OBJECT(label), "words");
+    char *name = g_strdup_printf("%s: %s", words, gtk_label_get_text(GTK_LABEL(label)));
+    ui_name(label, name);
+    g_free(name);
+}
+
+GtkWidget *ui_value(const char *name, const char *words) {
     GtkWidget *label = ui_label("", "value");
+    g_object_set_data_full(G_OBJECT(label), "words", g_strdup(words), g_free);
+    g_signal_connect(label, "notify::label", G_CALLBACK(on_value_text), NULL);
     gtk_label_set_xalign(GTK_LABEL(label), 1.0f);
     gtk_label_set_selectable(GTK_LABEL(label), TRUE);
     gtk_widget_set_can_focus(label, FALSE);
@@ -43,18 +65,37 @@ GtkWidget *ui_value(const char *name) {
     return label;
 }
 
+static void name_unless_named(GtkWidget *widget, const char *words) {
+    GtkAccessible *accessible = GTK_ACCESSIBLE(widget);
+    if (gtk_test_accessible_has_property(accessible, GTK_ACCESSIBLE_PROPERTY_LABEL)) {
+        gtk_accessible_reset_relation(accessible, GTK_ACCESSIBLE_RELATION_LABELLED_BY);
+    } else {
+        ui_name(widget, words);
+    }
+}
+
 GtkWidget *ui_mnemonic(const char *text, GtkWidget *target) {
     GtkWidget *label = gtk_label_new_with_mnemonic(text);
     gtk_label_set_xalign(GTK_LABEL(label), 0.0f);
-    if (target != NULL) {
-        gtk_label_set_mnemonic_widget(GTK_LABEL(label), target);
-    }
+    gtk_label_set_mnemonic_widget(GTK_LABEL(label), target);
+    name_unless_named(target, gtk_label_get_text(GTK_LABEL(label)));
     return label;
 }
 
+/* ---- buttons ---- */
+
+/* GTK names a button by its text with the underscore, and by the label in it. */
+static void on_button_text(GtkWidget *button, GParamSpec *spec, gpointer user) {
+    (void)spec, (void)user;
+    gtk_accessible_reset_property(GTK_ACCESSIBLE(button), GTK_ACCESSIBLE_PROPERTY_LABEL);
+}
+
 GtkWidget *ui_button(const char *text, const char *action, const char *tip) {
-    GtkWidget *button = gtk_button_new_with_mnemonic(text);
+    GtkWidget *button = gtk_button_new();
     char *full = g_strconcat("win.", action, NULL);
+    g_signal_connect(button, "notify::label", G_CALLBACK(on_button_text), NULL);
+    gtk_button_set_use_underline(GTK_BUTTON(button), TRUE);
+    gtk_button_set_label(GTK_BUTTON(button), text);
     gtk_actionable_set_action_name(GTK_ACTIONABLE(button), full);
     gtk_widget_set_name(button, action);
     gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
@@ -63,9 +104,50 @@ GtkWidget *ui_button(const char *text, const char *action, const char *tip) {
     return button;
 }
 
+void ui_button_show_file(GtkWidget *button, const char *path, const char *words) {
+    char *base = path != NULL ? g_path_get_basename(path) : g_strdup(words);
+    char *valid = g_utf8_make_valid(base, -1);
+    gtk_button_set_use_underline(GTK_BUTTON(button), path == NULL);
+    gtk_button_set_label(GTK_BUTTON(button), valid);
+    g_free(valid);
+    g_free(base);
+}
+
+static void name_without_key(GtkWidget *widget, const char *text) {
+    char **parts = g_strsplit(text, "_", -1), *plain = g_strjoinv("", parts);
+    ui_name(widget, plain);
+    g_free(plain);
+    g_strfreev(parts);
+}
+
+GtkWidget *ui_check(const char *text) {
+    GtkWidget *check = gtk_check_button_new_with_mnemonic(text);
+    name_without_key(check, text);
+    return check;
+}
+
+/* GTK names the button within, and not what is around it. */
+static void on_menu_button_text(GtkMenuButton *button, GParamSpec *spec, gpointer user) {
+    (void)spec, (void)user;
+    name_without_key(GTK_WIDGET(button), gtk_menu_button_get_label(button));
+}
+
+GtkWidget *ui_menu_button(const char *text) {
+    GtkWidget *button = gtk_menu_button_new();
+    g_signal_connect(button, "notify::label", G_CALLBACK(on_menu_button_text), NULL);
+    gtk_menu_button_set_use_underline(GTK_MENU_BUTTON(button), TRUE);
+    gtk_menu_button_set_label(GTK_MENU_BUTTON(button), text);
+    return button;
+}
+
 void ui_name(GtkWidget *widget, const char *words) {
-    gtk_accessible_update_property(GTK_ACCESSIBLE(widget), GTK_ACCESSIBLE_PROPERTY_LABEL, words,
-                                   -1);
+    GtkAccessible *accessible = GTK_ACCESSIBLE(widget);
+    /* Not by a label as well. */
+    gtk_accessible_reset_relation(accessible, GTK_ACCESSIBLE_RELATION_LABELLED_BY);
+    gtk_accessible_update_property(accessible, GTK_ACCESSIBLE_PROPERTY_LABEL, words, -1);
+    if (GTK_IS_DROP_DOWN(widget)) { /* the button in it, too */
+        ui_name(gtk_widget_get_first_child(widget), words);
+    }
 }
 
 GtkWidget *ui_progress(const char *name, const char *called) {
@@ -167,9 +249,14 @@ static void send_text(GtkWidget *entry) {
     }
     char *words =
         target->key != NULL ? g_strdup_printf("%s=%s", target->key, text) : g_strdup(text);
-    g_free(target->shown);
-    target->shown = g_strdup(text);
+    char *before = g_steal_pointer(&target->shown);
+    g_object_ref(entry);
     viewer_act_text(target->v, target->action, words);
+    if (target->shown == NULL) { /* refused, or nobody says what it has become */
+        ui_entry_show(entry, before);
+    }
+    g_object_unref(entry);
+    g_free(before);
     g_free(words);
 }
 
@@ -208,8 +295,133 @@ void ui_entry_show(GtkWidget *entry, const char *text) {
     if (g_strcmp0(text, target->shown) != 0) {
         g_free(target->shown);
         target->shown = g_strdup(text);
-        gtk_editable_set_text(GTK_EDITABLE(entry), text);
+        if (strcmp(text, gtk_editable_get_text(GTK_EDITABLE(entry))) != 0) {
+            gtk_editable_set_text(GTK_EDITABLE(entry), text);
+        }
     }
+}
+
+/* ---- numbers ---- */
+
+typedef struct number {
+    viewer *v;
+    char *words;
+    ui_range range;
+    ui_number_changed changed;
+    void *user;
+    double value; /* what the session has */
+    bool known;   /* false: it is being changed */
+    bool quiet;
+} number;
+
+static void free_number(gpointer user) {
+    number *n = user;
+    g_free(n->words);
+    g_free(n);
+}
+
+static number *number_of(gpointer spin) {
+    return g_object_get_data(G_OBJECT(spin), "number");
+}
+
+enum { DIGITS_SIZE = G_ASCII_DTOSTR_BUF_SIZE };
+
+/* As many digits as tell what it is, but for what arithmetic leaves at the end. */
+static const char *digits_of(double value, char buffer[DIGITS_SIZE]) {
+    return g_ascii_formatd(buffer, DIGITS_SIZE, "%.10g", value);
+}
+
+static gboolean on_number_output(GtkSpinButton *spin, gpointer user) {
+    char text[DIGITS_SIZE];
+    (void)user;
+    digits_of(gtk_spin_button_get_value(spin), text);
+    if (strcmp(text, gtk_editable_get_text(GTK_EDITABLE(spin))) != 0) {
+        gtk_editable_set_text(GTK_EDITABLE(spin), text);
+    }
+    return TRUE;
+}
+
+static void complain_of_number(const number *n, const char *text) {
+    char least[DIGITS_SIZE], most[DIGITS_SIZE];
+    char *line = g_strdup_printf("%s %s: expected a %s from %s to %s%s", n->words, text,
+                                 n->range.whole ? "whole number" : "number",
+                                 digits_of(n->range.least, least), digits_of(n->range.most, most),
+                                 strchr(text, ',') != NULL ? ", with a decimal point" : "");
+    viewer_complain(n->v, line);
+    g_free(line);
+}
+
+static int on_number_input(GtkSpinButton *spin, double *value, gpointer user) {
+    const number *n = user;
+    const char *text = gtk_editable_get_text(GTK_EDITABLE(spin));
+    char shown[DIGITS_SIZE];
+    double now = gtk_spin_button_get_value(spin);
+    *value = now;
+    if (strcmp(text, digits_of(now, shown)) == 0) {
+        return TRUE; /* with the digits that are not shown */
+    }
+    if (!cli_read_number(text, value) || *value < n->range.least || *value > n->range.most ||
+        (n->range.whole && *value != floor(*value))) {
+        complain_of_number(n, text);
+        *value = now;
+        return GTK_INPUT_ERROR;
+    }
+    return TRUE;
+}
+
+static void on_number_changed(GtkSpinButton *spin, gpointer user) {
+    number *n = user;
+    char was[DIGITS_SIZE], is[DIGITS_SIZE];
+    double before = n->value;
+    digits_of(gtk_spin_button_get_value(spin), is);
+    if (n->quiet || strcmp(digits_of(before, was), is) == 0 || n->v->window == NULL) {
+        return;
+    }
+    g_object_ref(spin);
+    n->value = g_ascii_strtod(is, NULL);
+    n->known = false;
+    n->changed(GTK_WIDGET(spin), n->user);
+    if (!n->known) { /* refused */
+        ui_number_show(GTK_WIDGET(spin), before);
+    }
+    g_object_unref(spin);
+}
+
+GtkWidget *ui_number(viewer *v, const char *name, const char *words, ui_range range,
+                     ui_number_changed changed, void *user) {
+    GtkWidget *widget = gtk_spin_button_new_with_range(range.least, range.most, range.step);
+    GtkSpinButton *spin = GTK_SPIN_BUTTON(widget);
+    number *n = g_new0(number, 1);
+    *n = (number){v, g_strdup(words), range, changed, user, range.least, true, false};
+    g_object_set_data_full(G_OBJECT(spin), "number", n, free_number);
+    gtk_widget_set_name(widget, name);
+    gtk_widget_set_valign(widget, GTK_ALIGN_CENTER);
+    ui_name(widget, words);
+    gtk_spin_button_set_numeric(spin, FALSE); /* it would leave out what it does not know */
+    gtk_spin_button_set_update_policy(spin, GTK_UPDATE_IF_VALID);
+    g_signal_connect(spin, "input", G_CALLBACK(on_number_input), n);
+    g_signal_connect(spin, "output", G_CALLBACK(on_number_output), n);
+    g_signal_connect(spin, "value-changed", G_CALLBACK(on_number_changed), n);
+    gtk_spin_button_update(spin);
+    return widget;
+}
+
+double ui_number_value(GtkWidget *widget) {
+    return number_of(widget)->value;
+}
+
+/* What the user is typing stays while the number is still the same. */
+void ui_number_show(GtkWidget *widget, double value) {
+    number *n = number_of(widget);
+    if (n->known && value == n->value) {
+        return;
+    }
+    n->known = true;
+    n->value = value;
+    n->quiet = true;
+    gtk_adjustment_set_value(gtk_spin_button_get_adjustment(GTK_SPIN_BUTTON(widget)), value);
+    on_number_output(GTK_SPIN_BUTTON(widget), NULL);
+    n->quiet = false;
 }
 
 /* ---- the rest ---- */

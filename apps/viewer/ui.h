@@ -12,17 +12,23 @@ GtkWidget *ui_box(GtkOrientation orientation, int spacing);
 GtkWidget *ui_label(const char *text, const char *classes);
 /* Text that goes on in further lines, none of them less than `width` characters wide. */
 GtkWidget *ui_paragraph(const char *name, const char *classes, int width);
-/* A number that is shown: equal widths, can be selected and copied. */
-GtkWidget *ui_value(const char *name);
-/* "_Label" that moves the focus to `target` (may be set later with
- * gtk_label_set_mnemonic_widget()). */
+/* A number that is shown: equal widths, can be selected and copied. Screen readers say `words`
+ * before it. */
+GtkWidget *ui_value(const char *name, const char *words);
+/* "_Label" that moves the focus to `target`, and names it if nothing has. */
 GtkWidget *ui_mnemonic(const char *text, GtkWidget *target);
 /* A button "_Text" that activates the action "win.name". */
 GtkWidget *ui_button(const char *text, const char *action, const char *tip);
 /* A bar with words in it; `called`: what a screen reader calls it. */
 GtkWidget *ui_progress(const char *name, const char *called);
-/* What a screen reader calls a widget that no words beside it name. */
+/* The button says the name of a file as it is, or "_Words" while there is none. */
+void ui_button_show_file(GtkWidget *button, const char *path, const char *words);
+/* A check button "_Text". */
+GtkWidget *ui_check(const char *text);
+/* What a screen reader calls a widget, whatever words it shows. */
 void ui_name(GtkWidget *widget, const char *words);
+/* A button "_Text" that opens a popover or menu; set these and other texts as GTK does. */
+GtkWidget *ui_menu_button(const char *text);
 /* A box whose children go on in further lines where the window is too narrow for them. */
 GtkWidget *ui_strip(int spacing);
 /* The same behind a title, in bold; further lines begin where the first does behind it. */
@@ -36,10 +42,25 @@ GtkWidget *ui_popover(GtkWidget *child, int height);
 /* A small "i" that explains. */
 GtkWidget *ui_explanation(const char *heading, const char *text);
 /* An entry `width` characters wide that sends its text to `action` as "KEY=text" (key NULL: the
- * text alone) when it is activated or left. */
+ * text alone) when it is activated or left. The action lets panes show what it has made of it: a
+ * text that was refused gives way to the one before. */
 GtkWidget *ui_entry(viewer *v, const char *name, int width, const char *action, const char *key);
 /* Sets the text unless the user is typing in it. */
 void ui_entry_show(GtkWidget *entry, const char *text);
+/* What a number can be, and by how much its buttons change it. */
+typedef struct ui_range {
+    double least, most, step;
+    bool whole;
+} ui_range;
+typedef void (*ui_number_changed)(GtkWidget *number, void *user);
+/* A number with buttons; screen readers and complaints call it `words`. A text that is no number of
+ * the range is complained of, and gives way to the number before; so does a number that `changed`
+ * does not show. */
+GtkWidget *ui_number(viewer *v, const char *name, const char *words, ui_range range,
+                     ui_number_changed changed, void *user);
+/* As the user gave it: what another number is rounded to in order to be shown is not lost. */
+double ui_number_value(GtkWidget *number);
+void ui_number_show(GtkWidget *number, double value);
 /* A drop-down of words, which are cut where there is no room for them. `chosen` has the signature
  * of notify signals. */
 GtkWidget *ui_choice(const char *name, GCallback chosen, gpointer user);

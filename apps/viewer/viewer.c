@@ -36,6 +36,12 @@ void viewer_say(viewer *v, const char *text) {
     set_message(v, text, false, false);
 }
 
+void viewer_forget_news(viewer *v) {
+    if (!v->message_is_problem) {
+        viewer_say(v, "");
+    }
+}
+
 static void complain(viewer *v, const char *text, bool is_of_model) {
     char words[VIEWER_WORDS_SIZE];
     viewer_words_for_window(text, words, sizeof words);
@@ -48,6 +54,12 @@ void viewer_complain(viewer *v, const char *text) {
     complain(v, text, false);
 }
 
+void viewer_complain_no_more(viewer *v) {
+    if (!v->message_is_of_model) {
+        viewer_complain(v, "");
+    }
+}
+
 void viewer_complain_of_model(viewer *v, const char *text) {
     if (text[0] != '\0' || v->message_is_of_model) {
         complain(v, text, text[0] != '\0');
@@ -57,6 +69,17 @@ void viewer_complain_of_model(viewer *v, const char *text) {
 void viewer_set_camera(viewer *v, double az_deg, double el_deg, double zoom) {
     v->camera =
         (viewer_camera){az_deg, fmax(-90.0, fmin(90.0, el_deg)), fmax(0.05, fmin(50.0, zoom))};
+    viewer_tell(v, CHANGED_VIEW);
+}
+
+void viewer_set_chart_view(viewer *v, int chart, double az_deg, double el_deg) {
+    double az = fmod(az_deg, 360.0);
+    for (int k = 0; k < VIEWER_CHARTS; ++k) {
+        if (k == chart || v->charts_together) {
+            v->chart_view[k][0] = az < 0.0 ? az + 360.0 : az;
+            v->chart_view[k][1] = fmax(0.0, fmin(90.0, el_deg));
+        }
+    }
     viewer_tell(v, CHANGED_VIEW);
 }
 

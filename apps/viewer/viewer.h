@@ -40,8 +40,14 @@ typedef struct viewer_camera {
 enum { TAB_SPACECRAFT, TAB_GRAPHICS, TAB_COMPARE, TAB_ORBIT, TAB_COUNT };
 extern const char *const VIEWER_TAB_NAME[TAB_COUNT]; /* as actions know them */
 
+enum { VIEWER_CHARTS = 4 }; /* x, y, z and length of what is drawn over all directions */
+
 typedef struct viewer viewer;
 typedef void (*viewer_listener)(void *pane, unsigned what);
+
+/* Steps of tables; finer ones take long, coarser ones are no table. */
+#define VIEWER_STEP_MIN_DEG 0.5
+#define VIEWER_STEP_MAX_DEG 90.0
 
 struct viewer {
     GtkApplication *application;
@@ -53,9 +59,10 @@ struct viewer {
     viewer_camera camera;
     srp_render_colouring colouring; /* not SRP_RENDER_VALUES */
     bool shadows;
-    int table_shown;         /* index of the table on the graphics tab, -1: none */
-    int compared[2];         /* -1: none */
-    double chart_view[4][2]; /* azimuth and elevation of the eye of each surface [deg] */
+    int table_shown; /* index of the table on the graphics tab, -1: none */
+    int compared[2]; /* -1: none */
+    double chart_view[VIEWER_CHARTS]
+                     [2]; /* azimuth and elevation of the eye of each surface [deg] */
     bool charts_together;
     int plates_to_fit;
     double az_step_deg, el_step_deg;
@@ -75,17 +82,25 @@ void viewer_listen(viewer *v, viewer_listener changed, void *pane);
 /* Something changed: every pane hears of it, now. */
 void viewer_tell(viewer *v, unsigned what);
 
-/* A line for the user, until the next one; "" says nothing. */
+/* A line for the user, until the next one or the next step; "" says nothing. */
 void viewer_say(viewer *v, const char *text);
+/* The user takes another step: what was said stands no more, but for what went wrong. */
+void viewer_forget_news(viewer *v);
 /* The same for what went wrong; "" takes back the last complaint, and nothing else. Options of the
  * command line are named as the window names them. */
 void viewer_complain(viewer *v, const char *text);
 
+/* After something was taken: what was refused before is forgotten, but not what is wrong with
+ * spacecraft or method. */
+void viewer_complain_no_more(viewer *v);
 /* The same for what is wrong with spacecraft or method: stands until the next engine. */
 void viewer_complain_of_model(viewer *v, const char *text);
 
 /* Moves the eye; elevation and zoom are kept within their ranges. */
 void viewer_set_camera(viewer *v, double az_deg, double el_deg, double zoom);
+
+/* Turns a surface, or all of them while they turn together; the elevation is kept from 0 to 90. */
+void viewer_set_chart_view(viewer *v, int chart, double az_deg, double el_deg);
 
 /* A size that a window can have: MIN to MAX pixels each way. */
 enum { WINDOW_SIZE_MIN = 100, WINDOW_SIZE_MAX = 20000 };

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The window: header, spacecraft, method, tabs, and a line for what there is to say. */
 #include "actions.h"
+#include "dropping.h"
+#include "opening.h"
+#include "recent.h"
 #include "state.h"
 #include "style.h"
 #include "ui.h"
@@ -32,9 +35,7 @@ static GMenuModel *main_menu(void) {
 }
 
 static GtkWidget *menu_button(const char *label, GMenuModel *menu, const char *tip) {
-    GtkWidget *button = gtk_menu_button_new();
-    gtk_menu_button_set_label(GTK_MENU_BUTTON(button), label);
-    gtk_menu_button_set_use_underline(GTK_MENU_BUTTON(button), TRUE);
+    GtkWidget *button = ui_menu_button(label);
     gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), menu);
     gtk_widget_set_tooltip_text(button, tip);
     return button;
@@ -49,7 +50,7 @@ static GtkWidget *make_header(frame *f) {
                               ui_button("_Open…", "choose-model", "Open an OBJ file (Ctrl+O)"));
     gtk_header_bar_pack_start(
         GTK_HEADER_BAR(header),
-        menu_button("_Recent", viewer_state_recent_menu(f->v), "Files that were open before"));
+        menu_button("_Recent", viewer_recent_menu(f->v), "Files that were open before"));
     GtkWidget *button = menu_button("Menu", menu, "Save, copy, style (F10)");
     gtk_menu_button_set_primary(GTK_MENU_BUTTON(button), TRUE);
     gtk_header_bar_pack_end(GTK_HEADER_BAR(header), button);
@@ -115,7 +116,7 @@ static GtkWidget *make_message(frame *f) {
     gtk_box_append(GTK_BOX(buttons), dismiss);
     gtk_box_append(GTK_BOX(column), buttons);
     gtk_box_append(GTK_BOX(box), column);
-    gtk_widget_add_css_class(box, "message");
+    gtk_widget_add_css_class(box, "banner");
     gtk_widget_set_visible(box, FALSE);
     f->bar = box;
     return box;
@@ -150,7 +151,9 @@ static void on_changed(void *pane, unsigned what) {
                     viewer_worker_is_busy(f->v->requests.batch, SLOT_TABLE) ||
                     viewer_worker_is_busy(f->v->requests.batch, SLOT_FIT) ||
                     viewer_worker_is_busy(f->v->requests.batch, SLOT_ORBIT);
-        gtk_label_set_text(GTK_LABEL(f->busy), busy ? "Computing …" : "");
+        gtk_label_set_text(GTK_LABEL(f->busy), busy                              ? "Computing …"
+                                               : viewer_opening_is_running(f->v) ? "Opening …"
+                                                                                 : "");
     }
 }
 
@@ -164,25 +167,12 @@ static gboolean on_close(GtkWindow *window, gpointer user) {
     return FALSE;
 }
 
-static gboolean on_drop(GtkDropTarget *target, const GValue *value, double x, double y,
-                        gpointer user) {
-    frame *f = user;
-    (void)target, (void)x, (void)y;
-    char *path = g_file_get_path(g_value_get_object(value));
-    if (path == NULL) {
-        return FALSE;
-    }
-    bool table = g_str_has_suffix(path, ".nc") || g_str_has_suffix(path, ".spo");
-    viewer_act_text(f->v, table ? "open-table" : "open", path);
-    g_free(path);
-    return TRUE;
-}
-
 /* ---- together ---- */
 
 static void add_tab(viewer *v, const char *label, GtkWidget *child) {
     GtkWidget *words = gtk_label_new_with_mnemonic(label);
     gtk_notebook_append_page(v->tabs, child, words);
+    ui_name(gtk_widget_get_parent(words), gtk_label_get_text(GTK_LABEL(words)));
     g_object_set(gtk_notebook_get_page(v->tabs, child), "tab-expand", FALSE, NULL);
 }
 
@@ -221,7 +211,5 @@ void viewer_build_window(viewer *v) {
     gtk_window_set_child(v->window, box);
     viewer_listen(v, on_changed, f);
     g_signal_connect(v->window, "close-request", G_CALLBACK(on_close), f);
-    GtkDropTarget *drop = gtk_drop_target_new(G_TYPE_FILE, GDK_ACTION_COPY);
-    g_signal_connect(drop, "drop", G_CALLBACK(on_drop), f);
-    gtk_widget_add_controller(GTK_WIDGET(v->window), GTK_EVENT_CONTROLLER(drop));
+    viewer_drop_begin(v);
 }

@@ -9,6 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char VIEWER_NO_TABLE[] = "There is no table yet: compute or open one.";
+const char VIEWER_NO_SPACECRAFT[] = "There is no spacecraft yet: open one.";
+
 char *viewer_text_copy(const char *text) {
     if (text == NULL) {
         return NULL;

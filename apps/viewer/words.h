@@ -7,6 +7,9 @@
 
 #include <stddef.h>
 
+/* Said where one is needed. */
+extern const char VIEWER_NO_TABLE[], VIEWER_NO_SPACECRAFT[];
+
 /* A copy, freed by free(); NULL for NULL and without memory. */
 char *viewer_text_copy(const char *text);
 

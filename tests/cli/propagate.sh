@@ -130,6 +130,25 @@ expect 3 propagate a.yaml --versus b.yaml -o /dev/full
 says "No space left"
 expect 3 propagate a.yaml --versus b.yaml -o no-such-directory/x
 says "No such file"
+# The differences, too, appear whole or not at all.
+if (ulimit -f 1 && exec "$SRP" propagate a.yaml > /dev/null 2>&1); then
+    last="ulimit -f 1; srp propagate a.yaml --versus b.yaml -o old.csv"
+    sed "s/step: 1 h/step: 10 min/" a.yaml > fine.yaml
+    sed "s/step: 1 h/step: 10 min/" b.yaml > finer.yaml
+    echo old > old.csv
+    (
+        ulimit -f 1
+        exec "$SRP" propagate fine.yaml --versus finer.yaml -o old.csv > ../log/out 2> ../log/err
+    )
+    got=$?
+    [ "$got" -eq 3 ] || fail "exit status $got, expected 3"
+    says "old.csv: cannot write: File too large"
+    check "an old file is lost" [ "$(cat old.csv)" = old ]
+    check "half a file is left" [ ! -e old.csv.part ]
+    rm -f fine.yaml finer.yaml old.csv
+else
+    skip 'srp does not run with a limit on the size of files'
+fi
 expect 3 propagate a.yaml --report .
 says "is a directory"
 sed "s#^output:#&\n  events: no-such-directory/x#" a.yaml > there.yaml

@@ -43,7 +43,7 @@ pause 4
 cancel
 fit 1
 wait
-expect message 1 plates fitted
+expect message 1 plate fitted
 fit 64
 pause 0.5
 END

@@ -122,6 +122,9 @@ END
     numbers_of fit
     cat << END
 save $scratch/five.plates
+fit 1
+wait
+expect compare-b 1 plate fitted
 tab graphics
 show-table 1
 method exact
@@ -182,7 +185,7 @@ wait
 open-table $scratch/half.nc
 open-table $scratch/one.nc
 wait
-expect comparison-facts Two tables of this session
+expect vector-rms —
 tab compare
 expect comparison-facts Comparing …
 expect vector-rms —
@@ -212,6 +215,7 @@ propagate
 wait
 expect message The mission ran
 print orbit-end
+tab orbit
 save $scratch/viewer.csv
 END
     view 0 --actions "$scratch/steps"

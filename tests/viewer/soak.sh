@@ -18,7 +18,8 @@ round() {
     done
     printf '%s\n' wait record clear-arrows 'colouring force' wait 'colouring material' 'material bus=0.4,0.2' wait \
         material 'tab graphics' 'az-step 15' 'el-step 15' compute-table wait 'method raycast' 'parameter grid=64' \
-        wait compute-table wait 'tab compare' wait 'fit 4' wait "save $scratch/soak.nc" "save $scratch/soak.png" \
+        wait compute-table wait 'tab compare' wait 'fit 4' wait "save $scratch/soak.txt" "save $scratch/soak.png" \
+        'tab graphics' "save $scratch/soak.nc" "open-table $scratch/soak.nc" wait \
         'material bus=0.3,0.1' wait reoptic wait 'show-table 1' reoptic clear-tables material 'method exact' \
         compute-table cancel wait clear-tables dark 'tab spacecraft' wait
 }

@@ -84,6 +84,7 @@ wait
 expect table raycast
 screenshot $SHOTS/6-second.png
 open-table $scratch/exact.txt
+wait
 expect table exact.txt
 
 tab compare
@@ -117,6 +118,9 @@ screenshot $SHOTS/9-fit.png
 clear-tables
 wait
 expect vector-rms —
+save $scratch/none.png
+expect message Nothing has been compared yet
+tab graphics
 save $scratch/none.nc
 expect message There is no table yet
 
@@ -178,15 +182,20 @@ versus $ROOT/models/missions/geo-cannonball.yaml
 propagate
 wait
 expect message The mission ran
-expect orbit-facts exact → cannonball
+expect orbit-facts geo-box-wing.yaml (exact) → geo-cannonball.yaml (cannonball): 
+save $scratch/viewer.nc
+expect message viewer.nc: Orbit saves the rows of the orbit (.csv). Visualize Graphics saves the table
 save $scratch/viewer.csv
 screenshot $SHOTS/10-orbit.png
+expect message Saved
+mission $ROOT/models/missions/geo-cannonball.yaml
+print message
 mission $scratch/no-such.yaml
-propagate
 wait
 expect message no-such.yaml
 END
     view 0 --actions "$scratch/steps"
+    [ -z "$(value message)" ] || fail "old words: $(value message)"
     seen 10-orbit.png 10 330 1260 440 20 0.99
     cmp "$scratch/cli.csv" "$scratch/viewer.csv" || fail 'other rows than srp propagate'
 fi
@@ -211,6 +220,10 @@ printf '%s\n' 'wait' 'expect method raycast' 'expect grid 77' 'expect mass 12.5'
 view 0 --remember --actions "$scratch/steps"
 grep -q '^files=.*models/cube.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the file is not among the recent ones'
 grep -q '^tab=1' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the tab is not remembered'
+printf 'v 1 2 x\n' > "$scratch/broken.obj"
+printf '%s\n' wait "open $scratch/broken.obj" wait 'expect message broken.obj:1' > "$scratch/steps"
+view 0 --remember --actions "$scratch/steps"
+! grep -q 'broken.obj' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'what cannot be opened is remembered'
 # Two windows at once: what either opened is remembered.
 printf '%s\n' wait 'pause 4' > "$scratch/slow"
 run_viewer --remember --actions "$scratch/slow" "$ROOT/models/dish.obj" > "$scratch/log" 2>&1 &
@@ -223,6 +236,17 @@ for model in dish box-wing cube; do
     grep -q "^files=.*models/$model.obj;" "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail "$model is forgotten"
 done
 grep -q '^files=[^;]*models/dish.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the newest file is not first'
+# Settings that cannot be kept are told of; a relative place is none.
+: > "$scratch/file"
+echo wait > "$scratch/steps"
+XDG_CONFIG_HOME=$scratch/file/below view 0 --remember --actions "$scratch/steps"
+[ "$(grep -c "nothing is remembered: $scratch/file/below/srpcore: " "$scratch/err")" -eq 1 ] || fail 'settings are lost without a word'
+mkdir -p "$scratch/config/none/srpcore/viewer.ini"
+XDG_CONFIG_HOME=$scratch/config/none view 0 --remember --actions "$scratch/steps"
+[ "$(grep -c "nothing is remembered: .*viewer.ini" "$scratch/err")" -eq 1 ] || fail 'settings are lost without a word'
+(cd "$scratch" && XDG_CONFIG_HOME=relative view 0 --remember --actions steps && exit "$failures") || fail 'a relative XDG_CONFIG_HOME'
+[ ! -e "$scratch/relative/srpcore" ] || fail 'a relative XDG_CONFIG_HOME is taken'
+[ -s "$HOME/.config/srpcore/viewer.ini" ] || fail 'without XDG_CONFIG_HOME ~/.config is not taken'
 printf 'not a key file\n\0\n' > "$XDG_CONFIG_HOME/srpcore/viewer.ini"
 printf 'wait\nexpect method exact\n' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps" "$ROOT/models/cube.obj"

@@ -76,11 +76,14 @@ expect message Mass -3: expected
 method exact
 wait
 open-table $scratch/no-such.nc
+wait
 expect message no-such.nc
+tab graphics
 save $scratch/nothing.nc
 expect message There is no table yet
 save $scratch/nothing.gif
-expect message no
+expect message nothing.gif: Visualize Graphics saves the table (.nc
+tab spacecraft
 open $ROOT/models/box-wing.obj
 wait
 expect model-name box-wing.obj
@@ -170,8 +173,7 @@ open $scratch/broken.obj
 open $ROOT/models/dish.obj
 wait
 screenshot $scratch/waited.png
-expect table cube.obj
-expect message Table 1: cube.obj
+expect table 1: cube.obj
 expect model-name dish.obj
 expect speed-words directions/s
 compute-table

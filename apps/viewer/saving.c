@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "saving.h"
+
+#include "chart.h"
+#include "comparison_view.h"
+#include "fit.h"
+#include "orbit.h"
+#include "outputs.h"
+#include "screenshot.h"
+#include "ui.h"
+#include "utf8.h"
+
+#include <stdlib.h>
+
+/* ---- spacecraft ---- */
+
+static bool save_picture(viewer *v, const char *path, viewer_words *problem) {
+    return viewer_picture_save(ui_find(v, "scene-picture"), path, problem);
+}
+
+/* ---- graphics ---- */
+
+/* With the words of the program's own writers. */
+static int write_table(const viewer_table *entry, const char *path, viewer_words *problem) {
+    const char *items[] = {path};
+    cli_list paths = {items, 1};
+    size_t written;
+    const srp_table_info *info = srp_table_get_info(entry->table);
+    cli_table_content content = {info->mass == info->mass, false};
+    viewer_words_listen(problem);
+    int status = cli_outputs_check(&paths, content, NULL, 0);
+    if (status == CLI_DONE) {
+        status = cli_outputs_write(&paths, entry->table, &written);
+    }
+    viewer_words_listen(NULL);
+    return status;
+}
+
+static bool save_table_or_figure(viewer *v, const char *path, viewer_words *problem) {
+    if (v->table_shown < 0) {
+        viewer_words_add(problem, VIEWER_NO_TABLE);
+        return false;
+    }
+    if (srp_table_format_of(path) == NULL) {
+        return viewer_chart_save(v, path, problem);
+    }
+    viewer_table *entry = v->session->tables[v->table_shown];
+    if (write_table(entry, path, problem) != CLI_DONE) {
+        return false;
+    }
+    char *copy = viewer_text_copy(path);
+    if (copy != NULL) {
+        free(entry->path);
+        entry->path = copy;
+    }
+    return true;
+}
+
+/* ---- comparison ---- */
+
+static bool save_comparison(viewer *v, const char *path, viewer_words *problem) {
+    if (cli_ends_with(path, ".plates")) {
+        return viewer_fit_save(v, path, problem);
+    }
+    return cli_ends_with(path, ".txt") ? viewer_comparison_save_text(v, path, problem)
+                                       : viewer_comparison_save_figure(v, path, problem);
+}
+
+/* ---- all tabs ---- */
+
+static const viewer_saving SAVINGS[TAB_COUNT] = {
+    [TAB_SPACECRAFT] = {"Save the Picture",
+                        "spacecraft.png",
+                        "the picture of the spacecraft (.png)",
+                        {"*.png"},
+                        save_picture},
+    [TAB_GRAPHICS] = {"Save Table or Figure",
+                      "table.nc",
+                      "the table (.nc, .spo, .txt) or its figure (.png, .svg, .pdf)",
+                      {"*.nc", "*.spo", "*.txt", "*.png", "*.svg", "*.pdf"},
+                      save_table_or_figure},
+    [TAB_COMPARE] = {"Save Comparison, Figure or Plates",
+                     "comparison.txt",
+                     "the comparison (.txt), its figure (.png, .svg, .pdf) or fitted plates "
+                     "(.plates)",
+                     {"*.txt", "*.png", "*.svg", "*.pdf", "*.plates"},
+                     save_comparison},
+#ifdef SRP_CLI_HAS_ORBIT
+    [TAB_ORBIT] = {"Save the Rows",
+                   "orbit.csv",
+                   "the rows of the orbit (.csv)",
+                   {"*.csv"},
+                   viewer_orbit_save},
+#endif
+};
+
+static const char *tab_words(const viewer *v, int tab) {
+    return gtk_notebook_get_tab_label_text(v->tabs, gtk_notebook_get_nth_page(v->tabs, tab));
+}
+
+bool viewer_saving_takes(const viewer_saving *saving, const char *path) {
+    bool can = false;
+    for (size_t i = 0; saving->patterns[i] != NULL; ++i) {
+        can = can || cli_ends_with(path, saving->patterns[i] + 1);
+    }
+    return can;
+}
+
+/* What this tab saves, and which one saves that file. */
+static void refuse(viewer *v, const char *path) {
+    GString *text = g_string_new(path);
+    g_string_append_printf(text, ": %s saves %s.",
+                           tab_words(v, gtk_notebook_get_current_page(v->tabs)),
+                           viewer_saving_now(v)->what);
+    for (int i = 0; i < gtk_notebook_get_n_pages(v->tabs); ++i) {
+        if (viewer_saving_takes(&SAVINGS[i], path)) {
+            g_string_append_printf(text, " %s saves %s.", tab_words(v, i), SAVINGS[i].what);
+        }
+    }
+    viewer_complain(v, text->str);
+    g_string_free(text, TRUE);
+}
+
+const viewer_saving *viewer_saving_now(const viewer *v) {
+    return &SAVINGS[gtk_notebook_get_current_page(v->tabs)];
+}
+
+void viewer_save(viewer *v, const char *path) {
+    const viewer_saving *saving = viewer_saving_now(v);
+    viewer_words problem = {""};
+    if (!viewer_saving_takes(saving, path)) {
+        refuse(v, path);
+        return;
+    }
+    if (!saving->save(v, path, &problem)) {
+        viewer_complain(v, problem.text);
+        return;
+    }
+    char *said = g_strdup_printf("Saved %s.", path);
+    viewer_say(v, said);
+    g_free(said);
+}

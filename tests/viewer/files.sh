@@ -1,0 +1,216 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Files that come in while the window goes on, and what each tab saves; what is said goes when it is old.
+. "$(dirname "$0")/lib.sh"
+start_display
+
+"$SRP" table "$ROOT/models/cube.obj" --step 30 --mass 12.5 -o "$scratch/small.nc" -o "$scratch/small.txt" > "$scratch/log" 2>&1 ||
+    fail 'srp table'
+
+# view_and_feed STATUS: runs the steps; when they note that the window hears, the pipe gets its table.
+view_and_feed() {
+    : > "$scratch/out"
+    (
+        until grep -q '^hears' "$scratch/out"; do sleep 0.05; done
+        cat "$scratch/small.txt" > "$scratch/slow.txt"
+    ) &
+    local writer=$!
+    view "$1" --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+    kill "$writer" 2> /dev/null
+}
+
+# Tables are read in the order that they were asked for, and the first takes as long as it likes: it comes
+# through a pipe when the window has shown that it hears.
+mkfifo "$scratch/slow.txt"
+cat > "$scratch/steps" << END
+wait
+tab graphics
+open-table $scratch/slow.txt
+open-table $scratch/small.nc
+open-table $scratch/no-such.nc
+expect busy Opening …
+turn-z 33
+pause 0.3
+expect turn-z 33
+expect f-x e+
+note hears
+wait
+expect table 2: small.nc
+expect message no-such.nc
+print busy
+show-table 1
+expect table 1: slow.txt
+open-table $scratch/small.txt
+wait
+expect table 3: small.txt
+print message
+END
+view_and_feed 0
+[ -z "$(value busy)" ] || fail "busy when all is there: $(value busy)"
+[ -z "$(value message)" ] || fail "a message that another try has taken back: $(value message)"
+
+# Of two that were asked for together and cannot be read, both are said.
+printf '%s\n' "open-table $scratch/slow.txt" "open-table $scratch/no-such.nc" "open-table $scratch/nor-this.nc" \
+    'pause 0.2' 'note hears' wait 'print message' > "$scratch/steps"
+view_and_feed 1
+sed -n '/^message:/,$p' "$scratch/out" > "$scratch/said"
+{ grep -q no-such.nc "$scratch/said" && grep -q nor-this.nc "$scratch/said"; } ||
+    fail "one of two that cannot be read is not said: $(cat "$scratch/said")"
+
+# Those that are not wanted any more do not come.
+cat > "$scratch/steps" << END
+wait
+open-table $scratch/slow.txt
+open-table $scratch/small.nc
+pause 0.2
+clear-tables
+note hears
+wait
+print table
+open-table $scratch/small.nc
+wait
+expect table 1: small.nc
+END
+view_and_feed 0
+[ -z "$(value table)" ] || fail "there is a table that was forgotten: $(value table)"
+
+# The window is closed while it reads.
+"$SRP" table --method cannonball --cr 1.25 --area 2.5 --step 0.5 --mass 12.5 -o "$scratch/large.txt" > "$scratch/log" 2>&1 ||
+    fail 'srp table'
+printf '%s\n' wait "open-table $scratch/large.txt" "open-table $scratch/large.txt" > "$scratch/steps"
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+
+# What each tab saves, and what it says of the rest.
+cat > "$scratch/steps" << END
+wait
+dark
+save $scratch/dark.png
+expect message Saved
+dark
+save $scratch/picture.png
+expect message Saved
+save $scratch/other.nc
+expect message other.nc: Visualize Spacecraft saves the picture of the spacecraft (.png). Visualize Graphics saves the table
+az-step 30
+el-step 30
+compute-table
+wait
+tab graphics
+save $scratch/cube.nc
+expect message Saved
+save $scratch/cube.plates
+expect message Compare Graphics saves the comparison (.txt)
+tab compare
+expect comparison-facts Compute or open a second table
+open-table $scratch/small.txt
+wait
+expect comparison-facts 62 directions
+save $scratch/compared.txt
+expect message Saved
+save $scratch/compared.svg
+expect message Saved
+save $scratch/compared.nc
+expect message compared.nc: Compare Graphics saves the comparison (.txt), its figure (.png, .svg, .pdf) or fitted plates (.plates). Visualize Graphics saves the table
+save $scratch/compared.SPO
+expect message Visualize Graphics saves the table
+save $scratch/compared
+expect message compared: Compare Graphics saves the comparison (.txt)
+clear-tables
+expect comparison-facts Two tables of this session, or from disk
+save $scratch/nothing.txt
+expect message Nothing has been compared yet
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+"$SRP" compare "$scratch/cube.nc" "$scratch/small.txt" > "$scratch/cli.txt" || fail 'srp compare'
+cmp "$scratch/cli.txt" "$scratch/compared.txt" || fail 'other text than srp compare'
+grep -q '<svg' "$scratch/compared.svg" || fail 'no figure of the comparison'
+for file in other.nc cube.plates compared.nc compared.SPO compared nothing.txt; do
+    [ ! -e "$scratch/$file" ] || fail "$file was saved"
+done
+read -r width height < <(od -An -tu1 -j16 -N8 "$scratch/picture.png" | awk '{ print $3 * 256 + $4, $7 * 256 + $8 }')
+"$CHECK" "$scratch/picture.png" "$width" "$height" 0 0 "$width" "$height" 25 0.985 || fail 'no picture of the spacecraft'
+[ "$width" -lt 1000 ] || fail 'the picture is of more than the spacecraft'
+
+! cmp -s "$scratch/picture.png" "$scratch/dark.png" || fail 'the picture is the same in the dark'
+
+# What was said of a step goes with the next one; what is wrong stands until it is mended.
+printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/mended.obj"
+cp "$ROOT/models/dish.mtl" "$scratch/"
+cat > "$scratch/steps" << END
+wait
+az-step 30
+el-step 30
+tab graphics
+compute-table
+wait
+expect message computed in
+open-table $scratch/small.nc
+wait
+print message
+save $scratch/cube.txt
+turn-x 3
+tab compare
+expect message Saved
+compare-b 1
+print message
+compare-b 9
+expect message there is no table of this number
+compare-b 2
+turn-x 5
+expect message there is no table of this number
+open $scratch/mended.obj
+wait
+expect message mended.obj:2:
+compute-table
+expect message mended.obj:2:
+tab spacecraft
+expect message mended.obj:2:
+note broken
+pause 2
+reload
+wait
+print message
+END
+: > "$scratch/out"
+(
+    until grep -q '^broken' "$scratch/out"; do sleep 0.05; done
+    cp "$ROOT/models/dish.obj" "$scratch/mended.obj"
+) &
+writer=$!
+view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+kill "$writer" 2> /dev/null
+said=$(values message | tr -d '\n')
+[ -z "$said" ] || fail "old words: $said"
+
+# What is dropped on the window is what its ending says; the spacecraft stays when it is nothing of use.
+echo 'not a model' > "$scratch/notes.md"
+mkdir "$scratch/a folder"
+cp "$scratch/small.nc" "$scratch/BIG LETTERS.NC"
+printf 'newmtl nobody\nrho_s 0.25\nrho_d 0.125\n' > "$scratch/nobody.mtl"
+cat > "$scratch/steps" << END
+wait
+drop $scratch/notes.md
+expect message notes.md: expected a spacecraft (.obj)
+drop '$scratch/a folder' https://example.org/x
+expect message a folder: expected
+expect message example.org/x: expected
+drop $scratch/nobody.mtl
+expect message has optics for none
+expect model-name box-wing.obj
+drop '$scratch/BIG LETTERS.NC' $scratch/small.txt
+wait
+expect table 2: small.txt
+save $scratch/dropped.nc
+expect message Saved
+drop $ROOT/models/cube.obj $scratch/nobody.mtl $ROOT/models/dish.obj
+expect message dish.obj: another file of its kind
+wait
+expect model-name cube.obj
+drop 'no end
+expect message quote
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+[ -s "$scratch/dropped.nc" ] || fail 'a dropped table is not shown'
+printf '%s\n' copy-command 'expect message no spacecraft' > "$scratch/steps"
+view 0 --actions "$scratch/steps"
+judge
