@@ -304,7 +304,7 @@ static gboolean activate(script *s, const char *name, const char *rest) {
     return FALSE;
 }
 
-static gboolean resize(script *s, const char *rest) {
+static gboolean resize(script *s, char *rest) {
     int width = 0, height = 0;
     char *end;
     width = (int)strtol(rest, &end, 10);
@@ -316,6 +316,55 @@ static gboolean resize(script *s, const char *rest) {
     return TRUE;
 }
 
+static gboolean wait_for_all(script *s, char *rest) {
+    (void)rest;
+    s->waits = true;
+    wait_for_frames(s);
+    return TRUE;
+}
+
+static gboolean shoot(script *s, char *rest) {
+    s->shot = rest;
+    wait_for_frames(s);
+    return TRUE;
+}
+
+static gboolean pause_for(script *s, char *rest) {
+    s->resume_at = viewer_seconds() + g_ascii_strtod(rest, NULL);
+    return TRUE;
+}
+
+static gboolean print_stall(script *s, char *rest) {
+    (void)rest;
+    g_print("stall: %.0f ms\n", 1e3 * s->stall);
+    s->stall = 0.0;
+    s->ticked_at = NAN;
+    return TRUE;
+}
+
+static gboolean audit_window(script *s, char *rest) {
+    (void)rest;
+    return viewer_audit(s->v) == 0 || fail(s, "the window is not for everybody");
+}
+
+static gboolean print_note(script *s, char *rest) {
+    (void)s;
+    g_print("%s\n", rest);
+    return TRUE;
+}
+
+/* What is no action, or not alone. */
+static const struct {
+    const char *name;
+    gboolean (*run)(script *s, char *rest); /* whether to go on */
+} STEPS[] = {
+    {"wait", wait_for_all},  {"pause", pause_for},    {"resize", resize},
+    {"print", print_text},   {"expect", expect_text}, {"place", print_place},
+    {"enter", enter_text},   {"focus", focus_widget}, {"press", press_key},
+    {"point", move_pointer}, {"screenshot", shoot},   {"stall", print_stall},
+    {"audit", audit_window}, {"note", print_note},
+};
+
 static gboolean step(script *s, char *line) {
     g_strstrip(line);
     char *rest = line + strcspn(line, " ");
@@ -325,56 +374,10 @@ static gboolean step(script *s, char *line) {
     if (line[0] == '\0' || line[0] == '#') {
         return TRUE;
     }
-    if (strcmp(line, "wait") == 0) {
-        s->waits = true;
-        wait_for_frames(s);
-        return TRUE;
-    }
-    if (strcmp(line, "screenshot") == 0) {
-        s->shot = rest;
-        wait_for_frames(s);
-        return TRUE;
-    }
-    if (strcmp(line, "pause") == 0) {
-        s->resume_at = viewer_seconds() + g_ascii_strtod(rest, NULL);
-        return TRUE;
-    }
-    if (strcmp(line, "resize") == 0) {
-        return resize(s, rest);
-    }
-    if (strcmp(line, "print") == 0) {
-        return print_text(s, rest);
-    }
-    if (strcmp(line, "expect") == 0) {
-        return expect_text(s, rest);
-    }
-    if (strcmp(line, "enter") == 0) {
-        return enter_text(s, rest);
-    }
-    if (strcmp(line, "place") == 0) {
-        return print_place(s, rest);
-    }
-    if (strcmp(line, "press") == 0) {
-        return press_key(s, rest);
-    }
-    if (strcmp(line, "point") == 0) {
-        return move_pointer(s, rest);
-    }
-    if (strcmp(line, "focus") == 0) {
-        return focus_widget(s, rest);
-    }
-    if (strcmp(line, "stall") == 0) {
-        g_print("stall: %.0f ms\n", 1e3 * s->stall);
-        s->stall = 0.0;
-        s->ticked_at = NAN;
-        return TRUE;
-    }
-    if (strcmp(line, "audit") == 0) {
-        return viewer_audit(s->v) == 0 || fail(s, "the window is not for everybody");
-    }
-    if (strcmp(line, "note") == 0) {
-        g_print("%s\n", rest);
-        return TRUE;
+    for (size_t i = 0; i < G_N_ELEMENTS(STEPS); ++i) {
+        if (strcmp(line, STEPS[i].name) == 0) {
+            return STEPS[i].run(s, rest);
+        }
     }
     return activate(s, line, rest);
 }

@@ -63,7 +63,7 @@ print message
 print az-step
 note want az-step: 7.5
 az-step 0.05
-expect message expected a step from 0.5 to 90
+expect message expected a step from 0.5 to 90 degrees
 print az-step
 note want az-step: 7.5
 END
