@@ -95,6 +95,9 @@ static void reoptic_release(viewer_job *base) {
 
 void viewer_reoptic_request(viewer *v) {
     int at = v->table_shown;
+    if (viewer_comes_after_engine(v, viewer_reoptic_request)) {
+        return;
+    }
     if (at < 0) {
         viewer_complain(v, VIEWER_NO_TABLE);
         return;

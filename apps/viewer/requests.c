@@ -96,7 +96,18 @@ static void engine_deliver(viewer_job *base) {
     }
     if (newest) {
         viewer_exchange_miss_mtl(v);
+        void (*what)(viewer * v) = v->requests.after_engine;
+        v->requests.after_engine = NULL;
+        if (what != NULL) {
+            what(v);
+        }
     }
+}
+
+bool viewer_comes_after_engine(viewer *v, void (*what)(viewer *v)) {
+    bool busy = viewer_worker_is_busy(v->requests.live, SLOT_ENGINE);
+    v->requests.after_engine = busy ? what : NULL;
+    return busy;
 }
 
 static void engine_release(viewer_job *base) {
@@ -395,7 +406,7 @@ void viewer_request_table(viewer *v) {
     viewer_engine *engine = v->session->engine;
     srp_grid grid;
     srp_error error;
-    if (!viewer_check_engine(v)) {
+    if (viewer_comes_after_engine(v, viewer_request_table) || !viewer_check_engine(v)) {
         return;
     }
     if (srp_grid_from_steps(v->az_step_deg, v->el_step_deg, &grid, &error) != SRP_OK) {
@@ -419,6 +430,7 @@ void viewer_request_table(viewer *v) {
 }
 
 void viewer_cancel_table(viewer *v) {
+    v->requests.after_engine = NULL;
     viewer_worker_cancel(v->requests.batch, SLOT_TABLE);
     viewer_tell(v, CHANGED_BUSY);
 }

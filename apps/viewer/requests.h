@@ -45,8 +45,9 @@ typedef struct viewer_requests {
     viewer_worker *shadows; /* the picture's */
     viewer_progress table;
     viewer_probe probe;
-    GQueue to_open;          /* paths of tables, each freed by free() */
-    viewer_words not_opened; /* of those that were asked for together: what went wrong */
+    GQueue to_open;                  /* paths of tables, each freed by free() */
+    viewer_words not_opened;         /* of those that were asked for together: what went wrong */
+    void (*after_engine)(viewer *v); /* what was asked for while it was made, NULL: nothing */
 } viewer_requests;
 
 void viewer_requests_begin(viewer *v);
@@ -60,6 +61,9 @@ bool viewer_requests_busy(const viewer *v);
 void viewer_request_engine(viewer *v, bool reload);
 /* The Sun has moved. */
 void viewer_request_force(viewer *v);
+/* Does an engine of what the user has said last have to be made first? Then `what` is called when
+ * it is there, unless something else is asked for meanwhile, or it is cancelled. */
+bool viewer_comes_after_engine(viewer *v, void (*what)(viewer *v));
 /* Whether there is something to compute with; says why not. */
 bool viewer_check_engine(viewer *v);
 /* A table of the engine, with the steps of the viewer. */

@@ -188,6 +188,40 @@ END
 view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 [ -z "$(value message)" ] || fail "the message is of a spacecraft that was: '$(value message)'"
 
+# What is asked for right after the method or the optics have changed is of these.
+cat > "$scratch/steps" << END
+wait
+az-step 30
+el-step 30
+tab graphics
+method raycast
+parameter grid=48
+compute-table
+wait
+expect table cube.obj, raycast
+open $ROOT/models/gnss.obj
+compute-table
+wait
+expect table gnss.obj, raycast
+open $ROOT/models/cube.obj
+method exact
+compute-table
+wait
+expect table cube.obj, exact
+material surface=0.5,0.25
+reoptic
+wait
+expect message other optics
+method cannonball
+compute-table
+cancel
+parameter cr=1.5
+parameter area=2
+wait
+expect table other optics
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+
 # A table that is cancelled, and a window that is closed while it computes.
 cat > "$scratch/steps" << END
 wait
