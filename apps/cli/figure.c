@@ -230,7 +230,8 @@ static cli_panel cell(const cli_figure_options *options, const cli_picture *pict
 
 static bool draw_surfaces(const cli_figure_options *options, const cli_picture *picture) {
     bool good = true;
-    cli_look look = {{options->view[0], options->view[1]}, format_of(options->output)->steps_max};
+    cli_look look = {
+        {options->view[0], options->view[1]}, format_of(options->output)->steps_max, false};
     for (size_t r = 0; r < picture->rows; ++r) {
         cli_scale scale = cli_figure_scale(picture, r);
         for (size_t c = 0; c < picture->columns; ++c) {

@@ -21,7 +21,8 @@ typedef struct cli_panel {
 typedef struct cli_look {
     double view[2]; /* azimuth and elevation of the eye [deg] */
     uint32_t
-        steps_max; /* facets along an angle; of finer tables every second node, or third, ... */
+        steps_max;  /* facets along an angle; of finer tables every second node, or third, ... */
+    bool is_titled; /* the caller says which fields are flat */
 } cli_look;
 
 /* The plane that the box of a surface is drawn on, seen like this (figure_surface.c). */

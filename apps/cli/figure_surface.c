@@ -100,9 +100,11 @@ bool cli_figure_surface(const cli_panel *panel, const cli_picture *picture, size
     plbox3("bnstu", "az [deg]", 90.0, 3, "bnstu", "el [deg]", 45.0, 3, "bcdmnstuv",
            picture->name[row], step, 0);
     plsurf3d(s.x, s.y, (PLFLT_MATRIX)s.z, s.nx, s.ny, MAG_COLOR, NULL, 0);
-    char words[CLI_FLAT_SIZE];
-    plcol0(INK_BLACK);
-    plptex(left + 0.06, top - 0.06, 1.0, 0.0, 0.0, cli_figure_flat_words(scale, words));
+    if (!look->is_titled) {
+        char words[CLI_FLAT_SIZE];
+        plcol0(INK_BLACK);
+        plptex(left + 0.06, top - 0.06, 1.0, 0.0, 0.0, cli_figure_flat_words(scale, words));
+    }
     surface_free(&s);
     return true;
 }

@@ -119,6 +119,7 @@ static void look_at_key(audit *a, GtkWidget *widget) {
     if (key == GDK_KEY_VoidSymbol || key == 0) {
         return;
     }
+    key = gdk_keyval_to_lower(key); /* as GTK takes it */
     const char *words = gtk_label_get_text(GTK_LABEL(widget));
     const char *other = g_hash_table_lookup(a->keys, GUINT_TO_POINTER(key));
     if (other != NULL) {

@@ -61,12 +61,15 @@ static char *plain(const char *name) {
 }
 
 static void put_title(const viewer_charts *c, int k, const viewer_page *page, cairo_t *cr) {
-    char *name = plain(c->picture.name[k]);
+    char words[VIEWER_FLAT_SIZE], *name = plain(c->picture.name[k]);
+    bool is_flat = viewer_page_flat_words(page, words)[0] != '\0';
+    char *title = g_strconcat(name, is_flat ? ": " : "", words, NULL);
     cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
     cairo_set_font_size(cr, fmin(13.0, page->width / 18.0));
     cairo_set_source_rgb(cr, page->ink[0], page->ink[1], page->ink[2]);
     cairo_move_to(cr, 12.0, 20.0);
-    cairo_show_text(cr, name);
+    cairo_show_text(cr, title);
+    g_free(title);
     g_free(name);
 }
 

@@ -2,6 +2,7 @@
 #include "chart_page.h"
 
 #include "figure_draw.h"
+#include "figure_scale.h"
 
 #include <srp/const.h>
 
@@ -48,7 +49,7 @@ static cli_panel panel_of(const viewer_page *page) {
 bool viewer_page_draw(const viewer_page *page, cairo_t *cr) {
     cli_panel panel = panel_of(page);
     cli_scale scale = cli_figure_scale(page->picture, page->row);
-    cli_look look = {{page->view[0], page->view[1]}, page->steps_max};
+    cli_look look = {{page->view[0], page->view[1]}, page->steps_max, true};
     volatile bool drawn = false;
     plsexit(leave);
     if (setjmp(way_out) == 0) {
@@ -58,6 +59,11 @@ bool viewer_page_draw(const viewer_page *page, cairo_t *cr) {
         plend1();
     }
     return drawn;
+}
+
+const char *viewer_page_flat_words(const viewer_page *page, char text[VIEWER_FLAT_SIZE]) {
+    _Static_assert((int)VIEWER_FLAT_SIZE == (int)CLI_FLAT_SIZE, "one is written into the other");
+    return cli_figure_flat_words(cli_figure_scale(page->picture, page->row), text);
 }
 
 /* ---- where things are ---- */

@@ -21,6 +21,10 @@ typedef struct viewer_page {
 /* False, with nothing drawn, where PLplot fails or this build is without it. One thread. */
 bool viewer_page_draw(const viewer_page *page, cairo_t *cr);
 
+/* What a title says of a flat field, "26 everywhere"; empty for others. Returns `text`. */
+enum { VIEWER_FLAT_SIZE = 64 };
+const char *viewer_page_flat_words(const viewer_page *page, char text[VIEWER_FLAT_SIZE]);
+
 /* The node that is drawn nearest to (x, y) [px]; of those that lie on one another the one in front.
  * False: none is within 14 px. */
 bool viewer_page_find(const viewer_page *page, double x, double y, uint32_t *i, uint32_t *j);

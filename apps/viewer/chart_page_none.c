@@ -7,6 +7,12 @@ bool viewer_page_draw(const viewer_page *page, cairo_t *cr) {
     return false;
 }
 
+const char *viewer_page_flat_words(const viewer_page *page, char text[VIEWER_FLAT_SIZE]) {
+    (void)page;
+    text[0] = '\0';
+    return text;
+}
+
 bool viewer_page_find(const viewer_page *page, double x, double y, uint32_t *i, uint32_t *j) {
     (void)page, (void)x, (void)y, (void)i, (void)j;
     return false;

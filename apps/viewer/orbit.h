@@ -31,6 +31,7 @@ void viewer_orbit_run(viewer *v);
 void viewer_orbit_cancel(viewer *v);
 /* Or about to run: missions are being read. */
 bool viewer_orbit_is_running(const viewer *v);
+bool viewer_orbit_is_cancelling(const viewer *v);
 /* Share of the run that is done. */
 double viewer_orbit_progress(viewer *v);
 

@@ -71,6 +71,12 @@ bool viewer_orbit_is_running(const viewer *v) {
     return viewer_worker_is_busy(v->requests.batch, SLOT_ORBIT) || is_reading(v);
 }
 
+bool viewer_orbit_is_cancelling(const viewer *v) {
+    return viewer_worker_is_cancelling(v->requests.batch, SLOT_ORBIT) ||
+           viewer_worker_is_cancelling(v->requests.tables, SLOT_MISSION) ||
+           viewer_worker_is_cancelling(v->requests.tables, SLOT_VERSUS);
+}
+
 /* ---- the choice ---- */
 
 typedef struct read_job {

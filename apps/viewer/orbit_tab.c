@@ -77,11 +77,19 @@ static void draw_grid(const frame *f, const char *time_unit, const char *length_
     put_text(f, f->left - 6.0, f->top - 10.0, 1.0, text);
 }
 
+/* Lighter on a dark ground. */
+static void choose_colour(const frame *f, const double colour[3]) {
+    double white = f->ink.red + f->ink.green + f->ink.blue > 1.5 ? 0.4 : 0.0;
+    cairo_set_source_rgb(f->cr, colour[0] + white * (1.0 - colour[0]),
+                         colour[1] + white * (1.0 - colour[1]),
+                         colour[2] + white * (1.0 - colour[2]));
+}
+
 static void draw_curves(const frame *f, const viewer_orbit *orbit, double time, double length) {
     const char *const *names = orbit->is_difference ? DIFFERENCE : POSITION;
     double x = f->left + 12.0;
     for (int k = 0; k < 4; ++k) {
-        cairo_set_source_rgb(f->cr, CURVE[k][0], CURVE[k][1], CURVE[k][2]);
+        choose_colour(f, CURVE[k]);
         cairo_set_line_width(f->cr, 1.6);
         cairo_new_path(f->cr);
         for (size_t i = 0; i < orbit->count; ++i) {
@@ -139,13 +147,23 @@ static void draw(GtkDrawingArea *area, cairo_t *cr, int width, int height, gpoin
 
 /* ---- what changes ---- */
 
+static void show_progress(pane *p) {
+    double done = viewer_orbit_progress(p->v);
+    char text[32] = "Cancelling …";
+    if (!viewer_orbit_is_cancelling(p->v)) {
+        snprintf(text, sizeof text, "%.0f %%", floor(100.0 * done));
+    }
+    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), text);
+    gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(p->progress), done);
+}
+
 static gboolean on_tick(gpointer user) {
     pane *p = user;
     if (p->v->window == NULL || !viewer_orbit_is_running(p->v)) {
         p->timer = 0;
         return G_SOURCE_REMOVE;
     }
-    gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(p->progress), viewer_orbit_progress(p->v));
+    show_progress(p);
     return G_SOURCE_CONTINUE;
 }
 
@@ -190,7 +208,8 @@ static void on_changed(void *user, unsigned what) {
     pane *p = user;
     if ((what & (CHANGED_ORBIT | CHANGED_BUSY)) != 0) {
         bool busy = viewer_orbit_is_running(p->v);
-        gtk_widget_set_sensitive(p->cancel, busy);
+        gtk_widget_set_sensitive(p->cancel, busy && !viewer_orbit_is_cancelling(p->v));
+        show_progress(p);
         gtk_widget_set_opacity(p->progress, busy ? 1.0 : 0.0);
         if (busy && p->timer == 0) {
             p->timer = g_timeout_add(PROGRESS_MS, on_tick, p);
@@ -224,9 +243,7 @@ static GtkWidget *make_strip(pane *p) {
     ui_name(p->drop, "Compare with none");
     p->cancel = ui_button("C_ancel", "cancel", "Stop (Ctrl+.)");
     gtk_widget_set_name(p->cancel, "cancel-orbit");
-    p->progress = gtk_progress_bar_new();
-    ui_name(p->progress, "Progress of the missions");
-    gtk_widget_set_valign(p->progress, GTK_ALIGN_CENTER);
+    p->progress = ui_progress("orbit-progress", "Progress of the missions");
     gtk_widget_set_hexpand(p->progress, TRUE);
     gtk_box_append(GTK_BOX(box), p->file[0]);
     gtk_box_append(GTK_BOX(box), p->file[1]);

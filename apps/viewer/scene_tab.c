@@ -152,7 +152,7 @@ static void show_latency(pane *p) {
     double median = viewer_session_median_latency(p->v->session);
     char text[96] = "";
     if (!isnan(median)) {
-        snprintf(text, sizeof text, "shown %.1f ms after the slider, computed in %.1f ms",
+        snprintf(text, sizeof text, "shown %.1f ms after the slider, computed in %.3g ms",
                  1e3 * median, 1e3 * p->v->session->force.seconds);
     }
     gtk_label_set_text(GTK_LABEL(p->latency), text);

@@ -228,7 +228,7 @@ static void show_setup(pane *p) {
         }
     }
     const char *plates = setup->model_option[MODEL_PLATES];
-    ui_button_show_file(p->plates, plates, "_Plates…");
+    ui_button_show_file(p->plates, plates, "C_hoose Plates…");
     const srp_method *method = viewer_setup_method(setup);
     gtk_widget_set_visible(p->plates, method != NULL && (method->shapes & SRP_SHAPE_PLATES) != 0);
 }
@@ -289,7 +289,7 @@ static GtkWidget *make_fields(pane *p) {
     gtk_widget_set_name(p->unit, "unit");
     gtk_widget_set_valign(p->unit, GTK_ALIGN_CENTER);
     g_signal_connect(p->unit, "notify::selected", G_CALLBACK(on_unit), p);
-    p->plates = ui_button("_Plates…", "choose-plates", "Plates file of the method nplate");
+    p->plates = ui_button("C_hoose Plates…", "choose-plates", "Plates file of the method nplate");
     GtkWidget *reference = ui_pair(ui_mnemonic("Mome_nts about [m]", p->reference), p->reference);
     gtk_box_append(
         GTK_BOX(reference),

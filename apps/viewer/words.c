@@ -70,7 +70,7 @@ static const cli_option *find_option(const char *name, size_t length) {
 /* Its own name with a capital, where the window has no other. */
 static void field_of(const cli_option *option, char *out, size_t size) {
     static const char *const other[][2] = {
-        {"material", "Materials"}, {"plates", "a file by Plates…"}, {"reference", "Moments about"}};
+        {"material", "Materials"}, {"plates", "a file by Choose Plates…"}, {"reference", "Moments about"}};
     for (size_t i = 0; i < sizeof other / sizeof other[0]; ++i) {
         if (strcmp(option->name, other[i][0]) == 0) {
             snprintf(out, size, "%s", other[i][1]);

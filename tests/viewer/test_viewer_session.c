@@ -110,7 +110,8 @@ START_TEST(words_name_fields_and_no_options) {
     expect_words("--mass -3: expected more", "Mass -3: expected more");
     expect_words("method cannonball needs --cr CR and --area M2",
                  "method cannonball needs Cr and Area");
-    expect_words("method nplate needs --plates FILE", "method nplate needs a file by Plates…");
+    expect_words("method nplate needs --plates FILE",
+                 "method nplate needs a file by Choose Plates…");
     expect_words("needs the mass of the spacecraft: --mass KG",
                  "needs the mass of the spacecraft: Mass");
     expect_words("as --material NAME=RHO_S,RHO_D", "as Materials");

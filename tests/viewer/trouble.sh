@@ -59,7 +59,7 @@ expect message
 expect lit-area e-
 method nplate
 wait
-expect message needs a file by Plates…
+expect message needs a file by Choose Plates…
 expect speed-words not known
 expect accuracy-words not known
 method cannonball
