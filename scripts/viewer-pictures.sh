@@ -59,6 +59,17 @@ fit 8
 wait
 END
 
+picture large sun-shield.obj << END
+resize 1920 1080
+az-step 5
+el-step 5
+compute-table
+wait
+tab compare
+fit 12
+wait
+END
+
 picture orbit box-wing.obj << END
 tab orbit
 mission $top/models/missions/geo-box-wing.yaml
