@@ -5,6 +5,7 @@
 #include "exchange.h"
 #include "facing.h"
 #include "fit.h"
+#include "loading.h"
 #include "methods.h"
 #include "numbers.h"
 #include "opening.h"
@@ -20,7 +21,7 @@
 /* ---- spacecraft ---- */
 
 static void open_model(viewer *v, GVariant *parameter) {
-    viewer_exchange_open(v, g_variant_get_string(parameter, NULL));
+    viewer_loading_open(v, g_variant_get_string(parameter, NULL));
 }
 
 static void choose_model(viewer *v, GVariant *parameter) {
@@ -327,6 +328,7 @@ static void cancel(viewer *v, GVariant *parameter) {
     viewer_cancel_table(v);
     viewer_fit_cancel(v);
     viewer_opening_cancel(v);
+    viewer_loading_cancel(v);
 #ifdef SRP_CLI_HAS_ORBIT
     viewer_orbit_cancel(v);
 #endif

@@ -38,9 +38,10 @@ static bool same_text(const char *a, const char *b) {
     return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
 }
 
-static viewer_shape *read_shape(const viewer_setup *setup, viewer_words *problem) {
+viewer_shape *viewer_shape_read(const viewer_setup *setup, viewer_words *said) {
     viewer_shape *shape = calloc(1, sizeof *shape);
     if (shape == NULL) {
+        viewer_words_add(said, "no memory for the spacecraft");
         return NULL;
     }
     atomic_init(&shape->references, 1);
@@ -53,10 +54,12 @@ static viewer_shape *read_shape(const viewer_setup *setup, viewer_words *problem
     }
     const char *const path = shape->path;
     cli_operands operands = {&path, 1};
+    viewer_words_listen(said);
     int status = path != NULL ? cli_info_collect(&model, &operands, &shape->info) : CLI_BAD_INPUT;
+    viewer_words_listen(NULL);
     if (status != CLI_DONE) {
-        if (problem->text[0] == '\0') {
-            viewer_words_add(problem, "no memory");
+        if (said->text[0] == '\0') {
+            viewer_words_add(said, "no memory");
         }
         viewer_shape_release(shape);
         return NULL;
@@ -220,14 +223,14 @@ viewer_engine *viewer_engine_make(const viewer_setup *setup, viewer_shape *known
     atomic_init(&engine->references, 1);
     copy->mass = NAN; /* changes without a new engine; whoever wants it asks the session */
     engine->setup = copy;
-    viewer_words_listen(&engine->problem);
     if (setup->model != NULL && !reload && known != NULL && same_text(known->path, setup->model) &&
         same_text(known->unit, setup->model_option[MODEL_UNIT])) {
         engine->shape = viewer_shape_reference(known);
     } else if (setup->model != NULL) {
-        engine->shape = read_shape(setup, &engine->problem);
+        engine->shape = viewer_shape_read(setup, &engine->problem);
     }
     srp_error error;
+    viewer_words_listen(&engine->problem);
     if (engine->shape != NULL && join_optics(engine, &error) != SRP_OK) {
         viewer_words_add_error(&engine->problem, &error);
         engine->optics_known = false;

@@ -23,6 +23,9 @@ typedef struct viewer_shape {
     cli_info info;
 } viewer_shape;
 
+/* Reads the model of the setup. NULL: it cannot be read, and `said` has why; else it has warnings.
+ * Any thread. */
+viewer_shape *viewer_shape_read(const viewer_setup *setup, viewer_words *said);
 viewer_shape *viewer_shape_reference(viewer_shape *shape); /* may be NULL, as the next */
 void viewer_shape_release(viewer_shape *shape);
 

@@ -11,22 +11,6 @@
 
 /* ---- in ---- */
 
-void viewer_exchange_open(viewer *v, const char *path) {
-    viewer_setup *setup = v->session->setup;
-    /* A name that means the same wherever the program is started next. */
-    char *full = g_canonicalize_filename(path, NULL);
-    bool other = setup->model == NULL || strcmp(setup->model, full) != 0;
-    if (other) {
-        viewer_setup_clear_materials(setup);
-    }
-    if (viewer_setup_set_model(setup, full)) {
-        viewer_complain(v, "");
-        viewer_tell(v, CHANGED_SETUP);
-        viewer_request_engine(v, !other);
-    }
-    g_free(full);
-}
-
 /* What `library` has for the materials of the engine's shape goes into the setup. How many. */
 static size_t take_optics(viewer *v, const srp_materials *library, viewer_words *problem) {
     const cli_info *info = &v->session->engine->shape->info;

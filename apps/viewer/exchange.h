@@ -5,8 +5,6 @@
 
 #include "viewer.h"
 
-/* Opens an OBJ file. What was said of the materials of another file is forgotten. */
-void viewer_exchange_open(viewer *v, const char *path);
 /* Takes the optics of the spacecraft's materials from an MTL file, as if they were typed. */
 void viewer_exchange_open_mtl(viewer *v, const char *path);
 /* Asks for the MTL file that a newly opened spacecraft names and lacks; once, and no script. */

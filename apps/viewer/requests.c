@@ -2,6 +2,7 @@
 #include "requests.h"
 
 #include "exchange.h"
+#include "loading.h"
 #include "numbers.h"
 #include "recent.h"
 #include "viewer.h"
@@ -58,6 +59,7 @@ typedef struct engine_job {
     viewer *v;
     viewer_setup *setup;
     viewer_shape *known;
+    viewer_words said; /* of `known` */
     bool reload;
     viewer_engine *made;
 } engine_job;
@@ -65,6 +67,12 @@ typedef struct engine_job {
 static void engine_run(viewer_job *base) {
     engine_job *job = (engine_job *)base;
     job->made = viewer_engine_make(job->setup, job->known, job->reload);
+    if (job->made != NULL && job->said.text[0] != '\0') {
+        if (job->made->problem.text[0] != '\0') {
+            viewer_words_add(&job->said, job->made->problem.text);
+        }
+        job->made->problem = job->said;
+    }
 }
 
 static void request_probe(viewer *v);
@@ -96,16 +104,17 @@ static void engine_deliver(viewer_job *base) {
     }
     if (newest) {
         viewer_exchange_miss_mtl(v);
-        void (*what)(viewer * v) = v->requests.after_engine;
-        v->requests.after_engine = NULL;
-        if (what != NULL) {
+        void (*what)(viewer *) = v->requests.after_engine;
+        if (what != NULL && !viewer_loading_is_running(v)) {
+            v->requests.after_engine = NULL;
             what(v);
         }
     }
 }
 
 bool viewer_comes_after_engine(viewer *v, void (*what)(viewer *v)) {
-    bool busy = viewer_worker_is_busy(v->requests.live, SLOT_ENGINE);
+    bool busy =
+        viewer_worker_is_busy(v->requests.live, SLOT_ENGINE) || viewer_loading_is_running(v);
     v->requests.after_engine = busy ? what : NULL;
     return busy;
 }
@@ -118,16 +127,15 @@ static void engine_release(viewer_job *base) {
     free(job);
 }
 
-void viewer_request_engine(viewer *v, bool reload) {
+static void request_engine(viewer *v, viewer_shape *known, const viewer_words *said, bool reload) {
     engine_job *job = g_new0(engine_job, 1);
     job->job =
         (viewer_job){.run = engine_run, .deliver = engine_deliver, .release = engine_release};
     job->v = v;
     job->setup = viewer_setup_copy(v->session->setup);
     job->reload = reload;
-    if (v->session->engine != NULL) {
-        job->known = viewer_shape_reference(v->session->engine->shape);
-    }
+    job->known = viewer_shape_reference(known);
+    job->said = *said;
     if (job->setup == NULL) {
         engine_release(&job->job);
         viewer_complain(v, "no memory for the spacecraft");
@@ -136,6 +144,16 @@ void viewer_request_engine(viewer *v, bool reload) {
     viewer_worker_cancel(v->requests.live, SLOT_FORCE);
     viewer_worker_submit(v->requests.live, SLOT_ENGINE, &job->job);
     viewer_tell(v, CHANGED_BUSY);
+}
+
+void viewer_request_engine(viewer *v, bool reload) {
+    const viewer_engine *engine = v->session->engine;
+    const viewer_words nothing = {""};
+    request_engine(v, engine != NULL ? engine->shape : NULL, &nothing, reload);
+}
+
+void viewer_request_engine_of(viewer *v, viewer_shape *shape, const viewer_words *said) {
+    request_engine(v, shape, said, false);
 }
 
 /* ---- force ---- */

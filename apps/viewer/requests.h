@@ -5,6 +5,7 @@
 #define SRP_VIEWER_REQUESTS_H
 
 #include "words.h"
+#include "engine.h"
 #include "worker.h"
 
 #include <stdatomic.h>
@@ -36,12 +37,12 @@ typedef struct viewer_progress {
 enum { SLOT_ENGINE, SLOT_FORCE };                      /* of `live` */
 enum { SLOT_TABLE, SLOT_ORBIT, SLOT_FIT, SLOT_PROBE }; /* of `batch` */
 /* Of `tables`; SLOT_MISSION: the first mission, and SLOT_VERSUS: the second. */
-enum { SLOT_COMPARISON, SLOT_REOPTIC, SLOT_OPENING, SLOT_MISSION, SLOT_VERSUS };
+enum { SLOT_MODEL, SLOT_COMPARISON, SLOT_REOPTIC, SLOT_OPENING, SLOT_MISSION, SLOT_VERSUS };
 
 typedef struct viewer_requests {
     viewer_worker *live, *batch;
-    viewer_worker *tables;  /* what is done with tables, and missions that are read: takes seconds
-                               at most */
+    viewer_worker *tables;  /* what is done with tables, and models and missions that are read:
+                               takes seconds at most */
     viewer_worker *shadows; /* the picture's */
     viewer_progress table;
     viewer_probe probe;
@@ -59,6 +60,8 @@ bool viewer_requests_busy(const viewer *v);
 
 /* The setup has changed: a new engine, then the force. `reload` reads files again. */
 void viewer_request_engine(viewer *v, bool reload);
+/* The same for a new spacecraft whose file has been read; `said` of it. */
+void viewer_request_engine_of(viewer *v, viewer_shape *shape, const viewer_words *said);
 /* The Sun has moved. */
 void viewer_request_force(viewer *v);
 /* Does an engine of what the user has said last have to be made first? Then `what` is called when

@@ -2,6 +2,7 @@
 /* The window: header, spacecraft, method, tabs, and a line for what there is to say. */
 #include "actions.h"
 #include "dropping.h"
+#include "loading.h"
 #include "opening.h"
 #include "recent.h"
 #include "state.h"
@@ -151,9 +152,11 @@ static void on_changed(void *pane, unsigned what) {
                     viewer_worker_is_busy(f->v->requests.batch, SLOT_TABLE) ||
                     viewer_worker_is_busy(f->v->requests.batch, SLOT_FIT) ||
                     viewer_worker_is_busy(f->v->requests.batch, SLOT_ORBIT);
-        gtk_label_set_text(GTK_LABEL(f->busy), busy                              ? "Computing …"
-                                               : viewer_opening_is_running(f->v) ? "Opening …"
-                                                                                 : "");
+        gtk_label_set_text(GTK_LABEL(f->busy),
+                           busy ? "Computing …"
+                           : viewer_opening_is_running(f->v) || viewer_loading_is_running(f->v)
+                               ? "Opening …"
+                               : "");
     }
 }
 

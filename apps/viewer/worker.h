@@ -24,7 +24,7 @@ struct viewer_job {
     unsigned slot;
 };
 
-enum { VIEWER_SLOTS = 5 };
+enum { VIEWER_SLOTS = 6 };
 
 typedef struct viewer_worker viewer_worker;
 
