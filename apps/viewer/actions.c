@@ -12,6 +12,7 @@
 #include "reoptic.h"
 #include "saving.h"
 #include "screenshot.h"
+#include "ui.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -554,6 +555,7 @@ const viewer_action *viewer_action_list(size_t *count) {
 
 static void on_activate(GSimpleAction *action, GVariant *parameter, gpointer user) {
     const viewer_action *which = g_object_get_data(G_OBJECT(action), "which");
+    ui_take_typed(user); /* a key leaves no entry */
     if (which->kind == DOES) {
         viewer_forget_news(user);
     }
