@@ -210,9 +210,7 @@ static void reset_attitude(viewer *v, GVariant *parameter) {
 
 static void toggle_record(viewer *v, GVariant *parameter) {
     (void)parameter;
-    v->session->recording = !v->session->recording;
-    if (v->session->recording && v->session->force_known &&
-        !viewer_session_set_force(v->session, &v->session->force)) {
+    if (!viewer_session_record(v->session, !v->session->recording)) {
         viewer_complain(v, "no memory for the arrow");
     }
     viewer_tell(v, CHANGED_ARROWS);

@@ -133,6 +133,7 @@ void viewer_request_engine(viewer *v, bool reload) {
         viewer_complain(v, "no memory for the spacecraft");
         return;
     }
+    v->session->asked_at = viewer_seconds(); /* with the engine */
     viewer_worker_cancel(v->requests.live, SLOT_FORCE);
     viewer_worker_submit(v->requests.live, SLOT_ENGINE, &job->job);
     viewer_tell(v, CHANGED_BUSY);
@@ -166,6 +167,7 @@ static void force_deliver(viewer_job *base) {
         viewer_complain_of_model(v, job->problem.text);
         return;
     }
+    job->force.asked_at = job->asked_at;
     if (!viewer_session_set_force(v->session, &job->force)) {
         viewer_complain(v, "no memory for the arrow");
     }
@@ -181,6 +183,7 @@ static void force_release(viewer_job *base) {
 
 void viewer_request_force(viewer *v) {
     viewer_engine *engine = v->session->engine;
+    v->session->asked_at = viewer_seconds();
     if (engine == NULL || engine->prepared == NULL ||
         viewer_worker_is_busy(v->requests.live, SLOT_ENGINE)) {
         return; /* asked for when the engine is there */
@@ -189,7 +192,7 @@ void viewer_request_force(viewer *v) {
     job->job = (viewer_job){.run = force_run, .deliver = force_deliver, .release = force_release};
     job->v = v;
     job->engine = viewer_engine_reference(engine);
-    job->asked_at = viewer_seconds();
+    job->asked_at = v->session->asked_at;
     viewer_attitude_sun(&v->session->attitude, &job->az_deg, &job->el_deg);
     viewer_worker_submit(v->requests.live, SLOT_FORCE, &job->job);
 }

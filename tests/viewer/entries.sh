@@ -101,6 +101,12 @@ note taken
 END
 view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 
+# Recording begins with what is shown now, also where that is still being computed.
+printf '%s\n' 'method raycast' wait 'turn-z 40' record wait 'expect arrows 1 arrow' 'turn-z 50' wait 'expect arrows 2 arrows' record \
+    clear-arrows record 'expect arrows 1 arrow' record clear-arrows 'type sun 5,5' record wait 'expect arrows 1 arrow' \
+    > "$scratch/steps"
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+
 # A file is called by its name on a button, underscores and all.
 printf '0 0 1 1 0.5 0.2\n' > "$scratch/my_pl'ates _x.plates"
 printf '%s\n' wait 'method nplate' "plates $scratch/my_pl'ates _x.plates" "expect choose-plates my_pl'ates _x.plates" \
