@@ -13,6 +13,7 @@
 #include "reoptic.h"
 #include "saving.h"
 #include "screenshot.h"
+#include "ui.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -210,9 +211,7 @@ static void reset_attitude(viewer *v, GVariant *parameter) {
 
 static void toggle_record(viewer *v, GVariant *parameter) {
     (void)parameter;
-    v->session->recording = !v->session->recording;
-    if (v->session->recording && v->session->force_known &&
-        !viewer_session_set_force(v->session, &v->session->force)) {
+    if (!viewer_session_record(v->session, !v->session->recording)) {
         viewer_complain(v, "no memory for the arrow");
     }
     viewer_tell(v, CHANGED_ARROWS);
@@ -556,6 +555,7 @@ const viewer_action *viewer_action_list(size_t *count) {
 
 static void on_activate(GSimpleAction *action, GVariant *parameter, gpointer user) {
     const viewer_action *which = g_object_get_data(G_OBJECT(action), "which");
+    ui_take_typed(user); /* a key leaves no entry */
     if (which->kind == DOES) {
         viewer_forget_news(user);
     }

@@ -61,7 +61,8 @@ typedef struct viewer_force {
     double az_deg, el_deg;
     srp_vec3 s;
     srp_response response;
-    double seconds; /* it took */
+    double seconds;  /* it took */
+    double asked_at; /* as the window asks, viewer_seconds() */
 } viewer_force;
 
 /* False with words; *out unchanged then. Any thread. */

@@ -292,7 +292,9 @@ static void orbit_deliver(viewer_job *base) {
     orbit_job *job = (orbit_job *)base;
     viewer *v = job->v;
     viewer_orbit *orbit = &keeper_of(v)->orbit;
-    if (job->cancelled || job->choice != keeper_of(v)->choice) {
+    if (viewer_worker_is_busy(v->requests.batch, SLOT_ORBIT)) {
+        /* A newer one runs. */
+    } else if (job->cancelled || job->choice != keeper_of(v)->choice) {
         viewer_say(v, "The mission was cancelled.");
     } else if (!job->good) {
         free_rows(orbit);

@@ -141,6 +141,7 @@ static void request_engine(viewer *v, viewer_shape *known, const viewer_words *s
         viewer_complain(v, "no memory for the spacecraft");
         return;
     }
+    v->session->asked_at = viewer_seconds(); /* with the engine */
     viewer_worker_cancel(v->requests.live, SLOT_FORCE);
     viewer_worker_submit(v->requests.live, SLOT_ENGINE, &job->job);
     viewer_tell(v, CHANGED_BUSY);
@@ -184,6 +185,7 @@ static void force_deliver(viewer_job *base) {
         viewer_complain_of_model(v, job->problem.text);
         return;
     }
+    job->force.asked_at = job->asked_at;
     if (!viewer_session_set_force(v->session, &job->force)) {
         viewer_complain(v, "no memory for the arrow");
     }
@@ -199,6 +201,7 @@ static void force_release(viewer_job *base) {
 
 void viewer_request_force(viewer *v) {
     viewer_engine *engine = v->session->engine;
+    v->session->asked_at = viewer_seconds();
     if (engine == NULL || engine->prepared == NULL ||
         viewer_worker_is_busy(v->requests.live, SLOT_ENGINE)) {
         return; /* asked for when the engine is there */
@@ -207,7 +210,7 @@ void viewer_request_force(viewer *v) {
     job->job = (viewer_job){.run = force_run, .deliver = force_deliver, .release = force_release};
     job->v = v;
     job->engine = viewer_engine_reference(engine);
-    job->asked_at = viewer_seconds();
+    job->asked_at = v->session->asked_at;
     viewer_attitude_sun(&v->session->attitude, &job->az_deg, &job->el_deg);
     viewer_worker_submit(v->requests.live, SLOT_FORCE, &job->job);
 }

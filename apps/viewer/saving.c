@@ -10,6 +10,7 @@
 #include "ui.h"
 #include "utf8.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* ---- spacecraft ---- */
@@ -19,6 +20,17 @@ static bool save_picture(viewer *v, const char *path, viewer_words *problem) {
 }
 
 /* ---- graphics ---- */
+
+static bool set_mass(srp_table *table, double mass, viewer_words *problem) {
+    const srp_table_info *info = srp_table_get_info(table);
+    srp_error error;
+    bool good = srp_table_describe(table, info->title, info->command_line, info->light, mass,
+                                   &error) == SRP_OK;
+    if (!good) {
+        viewer_words_add_error(problem, &error);
+    }
+    return good;
+}
 
 /* With the words of the program's own writers. */
 static int write_table(const viewer_table *entry, const char *path, viewer_words *problem) {
@@ -36,6 +48,22 @@ static int write_table(const viewer_table *entry, const char *path, viewer_words
     return status;
 }
 
+/* With the mass of now, where the file needs one and the table has none; it keeps none. */
+static bool write_massive(viewer_table *entry, const char *path, double mass,
+                          viewer_words *problem) {
+    bool needs = (srp_table_format_of(path)->capabilities & SRP_FORMAT_MASS) != 0 &&
+                 isnan(srp_table_get_info(entry->table)->mass) && !isnan(mass);
+    if (needs && atomic_load(&entry->references) > 1) { /* another thread reads it */
+        viewer_words_add(problem, "The table is being used: save it again when that is done.");
+        return false;
+    }
+    if (needs && !set_mass(entry->table, mass, problem)) {
+        return false;
+    }
+    bool good = write_table(entry, path, problem) == CLI_DONE;
+    return (!needs || set_mass(entry->table, NAN, problem)) && good;
+}
+
 static bool save_table_or_figure(viewer *v, const char *path, viewer_words *problem) {
     if (v->table_shown < 0) {
         viewer_words_add(problem, VIEWER_NO_TABLE);
@@ -45,7 +73,7 @@ static bool save_table_or_figure(viewer *v, const char *path, viewer_words *prob
         return viewer_chart_save(v, path, problem);
     }
     viewer_table *entry = v->session->tables[v->table_shown];
-    if (write_table(entry, path, problem) != CLI_DONE) {
+    if (!write_massive(entry, path, v->session->setup->mass, problem)) {
         return false;
     }
     char *copy = viewer_text_copy(path);

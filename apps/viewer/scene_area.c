@@ -204,7 +204,7 @@ static gboolean on_render(GtkGLArea *gl, GdkGLContext *context, gpointer user) {
     if (a->renderer != NULL) {
         bring_scene(a) ? draw_scene(a) : draw_nothing(a);
     }
-    if (!isnan(a->v->asked_at)) {
+    if (!isnan(a->v->asked_at) && a->v->session->force_known) {
         viewer_session_add_latency(a->v->session, viewer_seconds() - a->v->asked_at);
         a->v->asked_at = NAN;
     }

@@ -149,11 +149,11 @@ static void show_arrows(pane *p) {
 }
 
 static void show_latency(pane *p) {
-    double median = viewer_session_median_latency(p->v->session);
+    viewer_latency median = viewer_session_median_latency(p->v->session);
     char text[96] = "";
-    if (!isnan(median)) {
-        snprintf(text, sizeof text, "shown %.1f ms after the slider, computed in %.3g ms",
-                 1e3 * median, 1e3 * p->v->session->force.seconds);
+    if (!isnan(median.shown)) {
+        snprintf(text, sizeof text, "shown %.1f ms after the slider, computed in %.3g ms (medians)",
+                 1e3 * median.shown, 1e3 * median.computed);
     }
     gtk_label_set_text(GTK_LABEL(p->latency), text);
 }

@@ -188,13 +188,30 @@ static gboolean print_place(script *s, char *words) {
     return TRUE;
 }
 
-static gboolean enter_text(script *s, char *words) {
+/* NULL: the script has failed. */
+static GtkWidget *write_text(script *s, char *words) {
     char *text;
     GtkWidget *widget = find_widget(s, words, &text);
     if (widget == NULL || !(GTK_IS_ENTRY(widget) || GTK_IS_SPIN_BUTTON(widget))) {
-        return widget == NULL ? FALSE : fail(s, "expected an entry or a number");
+        if (widget != NULL) {
+            fail(s, "expected an entry or a number");
+        }
+        return NULL;
     }
     gtk_editable_set_text(GTK_EDITABLE(widget), text != NULL ? text : "");
+    return widget;
+}
+
+static gboolean type_text(script *s, char *words) {
+    GtkWidget *widget = write_text(s, words);
+    return widget != NULL && (gtk_widget_grab_focus(widget) || fail(s, "it takes no focus"));
+}
+
+static gboolean enter_text(script *s, char *words) {
+    GtkWidget *widget = write_text(s, words);
+    if (widget == NULL) {
+        return FALSE;
+    }
     if (GTK_IS_SPIN_BUTTON(widget)) {
         gtk_spin_button_update(GTK_SPIN_BUTTON(widget));
     } else {
@@ -362,7 +379,7 @@ static const struct {
     {"print", print_text},   {"expect", expect_text}, {"place", print_place},
     {"enter", enter_text},   {"focus", focus_widget}, {"press", press_key},
     {"point", move_pointer}, {"screenshot", shoot},   {"stall", print_stall},
-    {"audit", audit_window}, {"note", print_note},
+    {"audit", audit_window}, {"note", print_note},    {"type", type_text},
 };
 
 static gboolean step(script *s, char *line) {

@@ -11,6 +11,7 @@
  *     expect WIDGET TEXT       ends the program with status 1 unless the widget's text has TEXT
  *     place WIDGET             where it is in the window's picture, "place of WIDGET: X Y W H"
  *     enter WIDGET TEXT        writes into an entry or a number and leaves it
+ *     type WIDGET TEXT         writes into it and stays there
  *     focus WIDGET             leads the keyboard there, as Tab does
  *     press WIDGET KEY         gives it the focus and a key, "Left"
  *     point WIDGET X,Y         moves the pointer to this pixel of it

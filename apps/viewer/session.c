@@ -122,8 +122,8 @@ static bool comparable(const viewer_engine *a, const viewer_engine *b) {
 void viewer_session_set_engine(viewer_session *session, viewer_engine *engine) {
     if (!comparable(session->engine, engine)) {
         viewer_session_clear_arrows(session);
-        session->latency_count = 0;
     }
+    session->latency_count = 0;
     viewer_engine_release(session->engine);
     session->engine = engine;
     session->force_known = false;
@@ -142,7 +142,8 @@ static bool is_recorded(const viewer_session *session, const viewer_force *force
 bool viewer_session_set_force(viewer_session *session, const viewer_force *force) {
     session->force = *force;
     session->force_known = true;
-    if (!session->recording || is_recorded(session, force)) {
+    if (!session->recording || force->asked_at < session->recorded_from ||
+        is_recorded(session, force)) {
         return true;
     }
     if (session->arrow_count == session->arrow_room) {
@@ -162,6 +163,12 @@ bool viewer_session_set_force(viewer_session *session, const viewer_force *force
     session->arrows[session->arrow_count++] =
         (viewer_arrow){force->az_deg, force->el_deg, direction, magnitude};
     return true;
+}
+
+bool viewer_session_record(viewer_session *session, bool recording) {
+    session->recording = recording;
+    session->recorded_from = session->asked_at;
+    return !session->force_known || viewer_session_set_force(session, &session->force);
 }
 
 void viewer_session_clear_arrows(viewer_session *session) {
@@ -198,10 +205,11 @@ void viewer_arrow_colour(double share, float rgb[3]) {
 
 /* ---- latency ---- */
 
-enum { LATENCIES = sizeof((viewer_session *)0)->latency / sizeof(double) };
+enum { LATENCIES = sizeof((viewer_session *)0)->latency / sizeof(viewer_latency) };
 
-void viewer_session_add_latency(viewer_session *session, double seconds) {
-    session->latency[session->latency_count++ % LATENCIES] = seconds;
+void viewer_session_add_latency(viewer_session *session, double shown) {
+    session->latency[session->latency_count++ % LATENCIES] =
+        (viewer_latency){shown, session->force.seconds};
 }
 
 static int by_size(const void *a, const void *b) {
@@ -209,15 +217,22 @@ static int by_size(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-double viewer_session_median_latency(const viewer_session *session) {
-    double sorted[LATENCIES];
+static double median(double *values, size_t count) {
+    qsort(values, count, sizeof *values, by_size);
+    return count % 2 == 1 ? values[count / 2] : 0.5 * (values[count / 2 - 1] + values[count / 2]);
+}
+
+viewer_latency viewer_session_median_latency(const viewer_session *session) {
+    double shown[LATENCIES], computed[LATENCIES];
     size_t count = session->latency_count < LATENCIES ? session->latency_count : LATENCIES;
     if (count == 0) {
-        return NAN;
+        return (viewer_latency){NAN, NAN};
     }
-    memcpy(sorted, session->latency, count * sizeof *sorted);
-    qsort(sorted, count, sizeof *sorted, by_size);
-    return count % 2 == 1 ? sorted[count / 2] : 0.5 * (sorted[count / 2 - 1] + sorted[count / 2]);
+    for (size_t i = 0; i < count; ++i) {
+        shown[i] = session->latency[i].shown;
+        computed[i] = session->latency[i].computed;
+    }
+    return (viewer_latency){median(shown, count), median(computed, count)};
 }
 
 /* ---- tables ---- */

@@ -57,6 +57,12 @@ void viewer_table_release(viewer_table *table);
 
 /* ---- the session ---- */
 
+/* How long the new arrow took [s]. */
+typedef struct viewer_latency {
+    double shown;    /* from slider to picture */
+    double computed; /* of that */
+} viewer_latency;
+
 typedef struct viewer_session {
     viewer_setup *setup;   /* what the user has said */
     viewer_engine *engine; /* the newest that is made of it; NULL: none yet */
@@ -64,11 +70,13 @@ typedef struct viewer_session {
     bool force_known;
     viewer_force force;
     bool recording;
+    double asked_at;      /* when the force of now was asked for */
+    double recorded_from; /* what was asked for before that is not recorded */
     viewer_arrow *arrows;
     size_t arrow_count, arrow_room;
     viewer_table **tables;
     size_t table_count;
-    double latency[64]; /* slider to new arrow [s], a ring of the last ones */
+    viewer_latency latency[64]; /* a ring of the last ones, of this engine */
     size_t latency_count;
 } viewer_session;
 
@@ -82,15 +90,19 @@ void viewer_session_set_engine(viewer_session *session, viewer_engine *engine);
 /* The newest force; recorded as an arrow while `recording`, once per direction. False: no memory
  * for the arrow. */
 bool viewer_session_set_force(viewer_session *session, const viewer_force *force);
+/* Begins with the force of now, also where that is still being computed; or ends. False as above.
+ */
+bool viewer_session_record(viewer_session *session, bool recording);
 void viewer_session_clear_arrows(viewer_session *session);
 /* Least and largest magnitude of the arrows; false: there are none. */
 bool viewer_session_arrow_range(const viewer_session *session, double *least, double *largest);
 /* From blue (0) to red (1). */
 void viewer_arrow_colour(double share, float rgb[3]);
 
-void viewer_session_add_latency(viewer_session *session, double seconds);
-/* NAN: none yet. */
-double viewer_session_median_latency(const viewer_session *session);
+/* Of the newest force, which is shown now. */
+void viewer_session_add_latency(viewer_session *session, double shown);
+/* Of both, each by itself; NAN: none yet. */
+viewer_latency viewer_session_median_latency(const viewer_session *session);
 
 /* Takes table, name, command and path over; false, and they are freed, without memory. */
 bool viewer_session_add_table(viewer_session *session, viewer_table table);

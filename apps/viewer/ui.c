@@ -230,7 +230,7 @@ GtkWidget *ui_explanation(const char *heading, const char *text) {
 typedef struct entry_target {
     viewer *v;
     char *action, *key;
-    char *shown; /* what the session has */
+    char *shown; /* what the session has; NULL: it is being changed */
 } entry_target;
 
 static void free_target(gpointer user) {
@@ -244,7 +244,7 @@ static void free_target(gpointer user) {
 static void send_text(GtkWidget *entry) {
     entry_target *target = g_object_get_data(G_OBJECT(entry), "target");
     const char *text = gtk_editable_get_text(GTK_EDITABLE(entry));
-    if (g_strcmp0(text, target->shown) == 0 || target->v->window == NULL) {
+    if (target->shown == NULL || strcmp(text, target->shown) == 0 || target->v->window == NULL) {
         return;
     }
     char *words =
@@ -422,6 +422,20 @@ void ui_number_show(GtkWidget *widget, double value) {
     gtk_adjustment_set_value(gtk_spin_button_get_adjustment(GTK_SPIN_BUTTON(widget)), value);
     on_number_output(GTK_SPIN_BUTTON(widget), NULL);
     n->quiet = false;
+}
+
+/* ---- what is typed ---- */
+
+void ui_take_typed(viewer *v) {
+    GtkWidget *focus = v->window != NULL ? gtk_window_get_focus(v->window) : NULL;
+    GtkWidget *entry = focus != NULL ? gtk_widget_get_ancestor(focus, GTK_TYPE_ENTRY) : NULL;
+    GtkWidget *spin = focus != NULL ? gtk_widget_get_ancestor(focus, GTK_TYPE_SPIN_BUTTON) : NULL;
+    if (entry != NULL && g_object_get_data(G_OBJECT(entry), "target") != NULL) {
+        send_text(entry);
+    }
+    if (spin != NULL && number_of(spin) != NULL && number_of(spin)->known) {
+        gtk_spin_button_update(GTK_SPIN_BUTTON(spin));
+    }
 }
 
 /* ---- the rest ---- */

@@ -61,6 +61,8 @@ GtkWidget *ui_number(viewer *v, const char *name, const char *words, ui_range ra
 /* As the user gave it: what another number is rounded to in order to be shown is not lost. */
 double ui_number_value(GtkWidget *number);
 void ui_number_show(GtkWidget *number, double value);
+/* What the user is typing, as if the entry or number were left. */
+void ui_take_typed(viewer *v);
 /* A drop-down of words, which are cut where there is no room for them. `chosen` has the signature
  * of notify signals. */
 GtkWidget *ui_choice(const char *name, GCallback chosen, gpointer user);

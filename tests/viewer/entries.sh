@@ -82,6 +82,31 @@ while read -r got && read -r want; do
 done < <(grep -vE '^message:' "$scratch/out")
 [ "$checked" -eq 22 ] || fail "$checked of 22 looks at what is shown"
 
+# Keys, which leave no entry, act on what is typed there.
+cat > "$scratch/steps" << END
+wait
+type mass 777
+copy-command
+expect message --mass 777
+type az-step 15
+type el-step 45
+compute-table
+wait
+expect message 15° × 45°
+type rho-s-bus 0,4
+reset-view
+expect message with a decimal point
+expect rho-s-bus 0.
+note taken
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+
+# Recording begins with what is shown now, also where that is still being computed.
+printf '%s\n' 'method raycast' wait 'turn-z 40' record wait 'expect arrows 1 arrow' 'turn-z 50' wait 'expect arrows 2 arrows' record \
+    clear-arrows record 'expect arrows 1 arrow' record clear-arrows 'type sun 5,5' record wait 'expect arrows 1 arrow' \
+    > "$scratch/steps"
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+
 # A file is called by its name on a button, underscores and all.
 printf '0 0 1 1 0.5 0.2\n' > "$scratch/my_pl'ates _x.plates"
 printf '%s\n' wait 'method nplate' "plates $scratch/my_pl'ates _x.plates" "expect choose-plates my_pl'ates _x.plates" \

@@ -133,6 +133,32 @@ read -r width height < <(od -An -tu1 -j16 -N8 "$scratch/picture.png" | awk '{ pr
 
 ! cmp -s "$scratch/picture.png" "$scratch/dark.png" || fail 'the picture is the same in the dark'
 
+# A file that needs a mass has that of now where the table has none, as with srp convert; the table keeps none.
+cat > "$scratch/steps" << END
+az-step 30
+el-step 30
+tab graphics
+compute-table
+wait
+save $scratch/massless.txt
+expect message needs the mass
+save $scratch/massless.nc
+mass 12.5
+save $scratch/massive.txt
+expect message Saved
+save $scratch/massless-again.nc
+mass 25
+save $scratch/heavier.txt
+expect message Saved
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+[ ! -e "$scratch/massless.txt" ] || fail 'accelerations without a mass'
+cmp "$scratch/massless.nc" "$scratch/massless-again.nc" || fail 'the table has another mass after it was saved'
+for mass in 12.5=massive 25=heavier; do
+    "$SRP" convert "$scratch/massless.nc" "$scratch/${mass%=*}.txt" --mass "${mass%=*}" > "$scratch/log" 2>&1 || fail 'srp convert'
+    cmp "$scratch/${mass%=*}.txt" "$scratch/${mass#*=}.txt" || fail "another file than srp convert --mass ${mass%=*}"
+done
+
 # What was said of a step goes with the next one; what is wrong stands until it is mended.
 printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/mended.obj"
 cp "$ROOT/models/dish.mtl" "$scratch/"

@@ -124,6 +124,12 @@ view 0 --actions "$scratch/steps"
 kill "$changes" 2> /dev/null
 [ -z "$(values orbit-end | tr -d '\n')" ] || fail "the end of runs that failed: $(values orbit-end)"
 
+# A run that another one replaces is not spoken of.
+printf '%s\n' 'tab orbit' "mission $scratch/long.yaml" wait propagate 'pause 0.5' propagate 'pause 1.5' 'print message' \
+    cancel wait 'expect message The mission was cancelled.' > "$scratch/steps"
+view 0 --actions "$scratch/steps"
+[ -z "$(value message)" ] || fail "while a mission runs: $(value message)"
+
 # Orbits that are alike are said to be. Rows go where a link leads, and to a full disk they do not.
 ln -s target.csv "$scratch/link.csv"
 ln -s /dev/full "$scratch/full.csv"

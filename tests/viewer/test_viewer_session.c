@@ -391,6 +391,25 @@ START_TEST(arrows_are_recorded_once) {
 }
 END_TEST
 
+START_TEST(arrows_begin_with_the_force_of_now) {
+    viewer_session *session = viewer_session_create();
+    viewer_force old = force_of(1.5, srp_vec3_make(-1.0, 0.0, 0.0));
+    viewer_force now = force_of(2.5, srp_vec3_make(-1.0, 0.0, 0.0));
+    old.asked_at = 10.0;
+    now.asked_at = session->asked_at = 11.0;
+    ck_assert(viewer_session_record(session, true));
+    ck_assert(viewer_session_set_force(session, &old)); /* was still being computed */
+    ck_assert_uint_eq(session->arrow_count, 0);
+    ck_assert(viewer_session_set_force(session, &now));
+    ck_assert_uint_eq(session->arrow_count, 1);
+    ck_assert(viewer_session_record(session, false));
+    viewer_session_clear_arrows(session);
+    ck_assert(viewer_session_record(session, true));
+    ck_assert_uint_eq(session->arrow_count, 1);
+    viewer_session_destroy(session);
+}
+END_TEST
+
 START_TEST(arrows_end_with_their_method) {
     viewer_session *session = viewer_session_create();
     viewer_setup *setup = box_wing();
@@ -424,17 +443,32 @@ START_TEST(colours_from_blue_to_red) {
 }
 END_TEST
 
+static void add_latency(viewer_session *session, double shown, double computed) {
+    session->force.seconds = computed;
+    viewer_session_add_latency(session, shown);
+}
+
 START_TEST(latency_is_a_median) {
     viewer_session *session = viewer_session_create();
-    ck_assert(isnan(viewer_session_median_latency(session)));
-    viewer_session_add_latency(session, 0.5);
-    viewer_session_add_latency(session, 0.25);
-    viewer_session_add_latency(session, 7.0);
-    ck_assert(viewer_session_median_latency(session) == 0.5);
+    ck_assert(isnan(viewer_session_median_latency(session).shown));
+    add_latency(session, 0.5, 0.125);
+    add_latency(session, 0.25, 0.25);
+    add_latency(session, 7.0, 6.0);
+    ck_assert(viewer_session_median_latency(session).shown == 0.5);
+    ck_assert(viewer_session_median_latency(session).computed == 0.25);
     for (int i = 0; i < 100; ++i) {
-        viewer_session_add_latency(session, 0.125);
+        add_latency(session, 0.125, 0.0625);
     }
-    ck_assert(viewer_session_median_latency(session) == 0.125);
+    ck_assert(viewer_session_median_latency(session).shown == 0.125);
+    ck_assert(viewer_session_median_latency(session).computed == 0.0625);
+    viewer_setup *setup = box_wing();
+    viewer_engine *engine = viewer_engine_make(setup, NULL, false);
+    viewer_session_set_engine(session, engine);
+    add_latency(session, 0.5, 0.25);
+    say(setup, METHOD_NAME, "raycast");
+    viewer_session_set_engine(session, viewer_engine_make(setup, engine->shape, false));
+    ck_assert(isnan(viewer_session_median_latency(session).shown)); /* those were the old one's */
+    viewer_setup_destroy(setup);
     viewer_session_destroy(session);
 }
 END_TEST
@@ -489,6 +523,7 @@ static Suite *make_suite(void) {
     tcase_add_test(cases, attitude_there_and_back);
     tcase_add_test(cases, attitude_for_a_sun);
     tcase_add_test(cases, arrows_are_recorded_once);
+    tcase_add_test(cases, arrows_begin_with_the_force_of_now);
     tcase_add_test(cases, arrows_end_with_their_method);
     tcase_add_test(cases, colours_from_blue_to_red);
     tcase_add_test(cases, latency_is_a_median);
