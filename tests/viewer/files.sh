@@ -160,7 +160,7 @@ for mass in 12.5=massive 25=heavier; do
 done
 
 # What was said of a step goes with the next one; what is wrong stands until it is mended.
-printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/mended.obj"
+cp "$ROOT/models/dish.obj" "$scratch/mended.obj"
 cp "$ROOT/models/dish.mtl" "$scratch/"
 cat > "$scratch/steps" << END
 wait
@@ -186,6 +186,10 @@ turn-x 5
 expect message there is no table of this number
 open $scratch/mended.obj
 wait
+note good
+pause 2
+reload
+wait
 expect message mended.obj:2:
 compute-table
 expect message mended.obj:2:
@@ -199,6 +203,8 @@ print message
 END
 : > "$scratch/out"
 (
+    until grep -q '^good' "$scratch/out"; do sleep 0.05; done
+    printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/mended.obj"
     until grep -q '^broken' "$scratch/out"; do sleep 0.05; done
     cp "$ROOT/models/dish.obj" "$scratch/mended.obj"
 ) &
