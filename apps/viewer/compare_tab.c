@@ -124,7 +124,7 @@ static void comparison_deliver(viewer_job *base) {
     }
     if (!job->good) {
         gtk_label_set_text(GTK_LABEL(p->facts), "These two cannot be compared.");
-        viewer_complain(v, job->problem.text);
+        viewer_complain_about(v, ABOUT_TABLE, job->problem.text);
         return;
     }
     keep(p, job);

@@ -37,6 +37,10 @@ static void add_table(opening_job *job) {
     if (viewer_session_add_table(v->session, entry)) {
         v->table_shown = (int)v->session->table_count - 1;
     }
+    if (v->requests.not_opened.text[0] == '\0') {
+        viewer_complain_about(v, ABOUT_OPENING, "");
+    }
+    viewer_complain_about(v, ABOUT_TABLE, "");
     int tab = gtk_notebook_get_current_page(v->tabs);
     if (tab != TAB_GRAPHICS && tab != TAB_COMPARE) {
         gtk_notebook_set_current_page(v->tabs, TAB_GRAPHICS); /* where it is seen */
@@ -58,7 +62,7 @@ static void opening_deliver(viewer_job *base) {
     } else {
         /* Of each of those that were asked for together. */
         viewer_words_add(&v->requests.not_opened, job->problem.text);
-        viewer_complain(v, v->requests.not_opened.text);
+        viewer_complain_about(v, ABOUT_OPENING, v->requests.not_opened.text);
     }
     viewer_tell(v, CHANGED_TABLES | CHANGED_BUSY);
 }
@@ -92,7 +96,6 @@ void viewer_opening_add(viewer *v, const char *path) {
     g_queue_push_tail(&v->requests.to_open, copy);
     if (!viewer_opening_is_running(v)) {
         v->requests.not_opened = (viewer_words){""};
-        viewer_complain(v, "");
         read_next(v);
     }
     viewer_tell(v, CHANGED_BUSY);

@@ -57,7 +57,7 @@ static void refuse(const reoptic_job *job) {
     }
     char *said = g_strdup_printf("Table %s cannot be given other optics: %s. Compute it again.",
                                  job->from->name, why);
-    viewer_complain(job->v, said);
+    viewer_complain_about(job->v, ABOUT_TABLE, said);
     g_free(said);
 }
 
@@ -78,6 +78,7 @@ static void reoptic_deliver(viewer_job *base) {
         v->table_shown = (int)v->session->table_count - 1;
     }
     char *said = g_strdup_printf("Table %s: direct light by its sums, nothing traced.", name);
+    viewer_complain_about(v, ABOUT_TABLE, "");
     viewer_say(v, said);
     g_free(said);
     g_free(name);
@@ -99,11 +100,12 @@ void viewer_reoptic_request(viewer *v) {
         return;
     }
     if (at < 0) {
-        viewer_complain(v, VIEWER_NO_TABLE);
+        viewer_complain_about(v, ABOUT_TABLE, VIEWER_NO_TABLE);
         return;
     }
     if (!viewer_session_table_is_old(v->session, (size_t)at)) {
-        viewer_complain(v, "This table is not of other optics of the spacecraft shown.");
+        viewer_complain_about(v, ABOUT_TABLE,
+                              "This table is not of other optics of the spacecraft shown.");
         return;
     }
     reoptic_job *job = g_new0(reoptic_job, 1);

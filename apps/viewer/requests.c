@@ -333,7 +333,7 @@ static void table_deliver(viewer_job *base) {
     if (job->status == SRP_CANCELLED) {
         viewer_say(v, "The table was cancelled.");
     } else if (job->status != SRP_OK) {
-        viewer_complain(v, job->error.message);
+        viewer_complain_about(v, ABOUT_TABLE, job->error.message);
     } else {
         char name[256];
         snprintf(name, sizeof name, "%zu: %.100s, %s, %g° × %g°", v->session->table_count + 1,
@@ -348,6 +348,7 @@ static void table_deliver(viewer_job *base) {
         char said[300];
         snprintf(said, sizeof said, "Table %s: computed in %.2f s.", name,
                  viewer_seconds() - v->requests.table.began);
+        viewer_complain_about(v, ABOUT_TABLE, "");
         viewer_say(v, said);
     }
     viewer_tell(v, CHANGED_TABLES | CHANGED_BUSY);
@@ -410,7 +411,7 @@ void viewer_request_table(viewer *v) {
         return;
     }
     if (srp_grid_from_steps(v->az_step_deg, v->el_step_deg, &grid, &error) != SRP_OK) {
-        viewer_complain(v, error.message);
+        viewer_complain_about(v, ABOUT_TABLE, error.message);
         return;
     }
     table_job *job = g_new0(table_job, 1);

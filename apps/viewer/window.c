@@ -80,7 +80,7 @@ static void show_message(frame *f) {
 
 static void on_dismiss(GtkButton *button, gpointer user) {
     (void)button;
-    viewer_say(((frame *)user)->v, "");
+    viewer_dismiss(((frame *)user)->v);
 }
 
 static GtkWidget *message_label(const char *name) {
@@ -143,7 +143,7 @@ static void on_changed(void *pane, unsigned what) {
     }
     if ((what & CHANGED_MESSAGE) != 0) {
         show_message(f);
-        f->v->message_is_problem ? gtk_widget_add_css_class(f->bar, "problem")
+        f->v->problem[0] != '\0' ? gtk_widget_add_css_class(f->bar, "problem")
                                  : gtk_widget_remove_css_class(f->bar, "problem");
     }
     if ((what & (CHANGED_BUSY | CHANGED_ENGINE | CHANGED_TABLES | CHANGED_ORBIT)) != 0) {
