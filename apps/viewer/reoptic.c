@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct reoptic_job {
     viewer_job job;
@@ -69,8 +70,10 @@ static void reoptic_deliver(viewer_job *base) {
         refuse(job);
         return;
     }
-    char *name = g_strdup_printf("%zu: %s, other optics than %.120s", v->session->table_count + 1,
-                                 srp_table_get_info(job->made)->title, job->from->name);
+    char summary[320];
+    viewer_table_summary(job->made, NULL, summary, sizeof summary);
+    char *name = g_strdup_printf("%zu: %s, re-optic of %.*s", v->session->table_count + 1, summary,
+                                 (int)strcspn(job->from->name, ":"), job->from->name);
     viewer_table table = {job->made, viewer_text_copy(name), job->command, NULL, 0};
     job->made = NULL;
     job->command = NULL;

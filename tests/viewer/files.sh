@@ -132,6 +132,16 @@ expect comparison-facts Compute or open a second table
 open-table $scratch/small.txt
 wait
 expect comparison-facts 62 directions
+expect message Table 2: small.txt opened
+open-table $scratch/small.nc
+wait
+expect compare-a 1: cube.obj
+expect compare-b 3: small.nc
+open-table $scratch/small.txt
+wait
+expect compare-b 4: small.txt
+compare-b 2
+wait
 save $scratch/compared.txt
 expect message Saved
 save $scratch/compared.svg
@@ -173,7 +183,7 @@ wait
 expect message computed in
 open-table $scratch/small.nc
 wait
-print message
+expect message Table 2: small.nc opened
 save $scratch/cube.txt
 turn-x 3
 tab compare

@@ -160,7 +160,7 @@ between pair > "$scratch/pair"
 between fit > "$scratch/fit"
 case $(value table) in
 *'of other optics'*) fail "the new table is of other optics: $(value table)" ;;
-*'other optics than'*) ;;
+*', exact, 15° × 15°, re-optic of 1') ;;
 *) fail "the new table is '$(value table)'" ;;
 esac
 model=$ROOT/models/box-wing.obj
