@@ -267,7 +267,7 @@ static void show_busy(pane *p) {
     bool busy = viewer_fit_is_running(p->v);
     gtk_widget_set_sensitive(p->fit, p->v->compared[0] >= 0 && !busy);
     gtk_widget_set_sensitive(p->cancel, busy && !viewer_fit_is_cancelling(p->v));
-    gtk_widget_set_visible(p->progress, busy);
+    gtk_widget_set_opacity(p->progress, busy ? 1.0 : 0.0);
     if (busy) {
         show_progress(p);
     }

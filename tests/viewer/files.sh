@@ -170,6 +170,31 @@ read -r width height < <(od -An -tu1 -j16 -N8 "$scratch/picture.png" | awk '{ pr
 
 ! cmp -s "$scratch/picture.png" "$scratch/dark.png" || fail 'the picture is the same in the dark'
 
+# Nothing moves under the pointer, when there is something to say or something is computed.
+cat > "$scratch/steps" << END
+wait
+place turn-z
+open-table $scratch/no-such.nc
+wait
+expect message no-such.nc
+place turn-z
+tab graphics
+pause 0.3
+place table
+az-step 2
+el-step 2
+compute-table
+pause 0.3
+expect busy Computing …
+place table
+cancel
+wait
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+for widget in turn-z table; do
+    [ "$(values "place of $widget" | sort -u | wc -l)" -eq 1 ] || fail "$widget moves: $(values "place of $widget")"
+done
+
 # What was said of a step goes with the next one; what is wrong stands until it is mended.
 printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/mended.obj"
 cp "$ROOT/models/dish.mtl" "$scratch/"
