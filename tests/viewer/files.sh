@@ -170,6 +170,12 @@ read -r width height < <(od -An -tu1 -j16 -N8 "$scratch/picture.png" | awk '{ pr
 
 ! cmp -s "$scratch/picture.png" "$scratch/dark.png" || fail 'the picture is the same in the dark'
 
+# Words fit numbers.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > "$scratch/one.obj"
+printf '%s\n' 'material =0.1,0.2' wait 'expect model-facts 1 triangle ·' 'print speed-words' > "$scratch/steps"
+view 0 --actions "$scratch/steps" "$scratch/one.obj"
+[[ $(value speed-words) =~ ^[0-9]+\ directions/s$ ]] || fail "speed: $(value speed-words)"
+
 # Nothing moves under the pointer, when there is something to say or something is computed.
 cat > "$scratch/steps" << END
 wait

@@ -424,6 +424,18 @@ START_TEST(colours_from_blue_to_red) {
 }
 END_TEST
 
+START_TEST(names_end_once) {
+    static const char *const names[][2] = {
+        {"/a.nc.nc", "/a.nc"}, {"a.b.nc", "a.b.nc"},   {"a.nc", "a.nc"}, {".nc.nc", ".nc.nc"},
+        {"b.c/a", "b.c/a"},    {"nothing", "nothing"}, {"a..", "a.."}};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        char *name = viewer_text_end_once(names[i][0]);
+        ck_assert_str_eq(name, names[i][1]);
+        free(name);
+    }
+}
+END_TEST
+
 START_TEST(latency_is_a_median) {
     viewer_session *session = viewer_session_create();
     ck_assert(isnan(viewer_session_median_latency(session)));
@@ -491,6 +503,7 @@ static Suite *make_suite(void) {
     tcase_add_test(cases, arrows_are_recorded_once);
     tcase_add_test(cases, arrows_end_with_their_method);
     tcase_add_test(cases, colours_from_blue_to_red);
+    tcase_add_test(cases, names_end_once);
     tcase_add_test(cases, latency_is_a_median);
     tcase_add_test(cases, camera_stays_in_the_room);
     suite_add_tcase(suite, cases);
