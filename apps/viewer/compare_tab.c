@@ -124,7 +124,7 @@ static void comparison_deliver(viewer_job *base) {
     }
     if (!job->good) {
         gtk_label_set_text(GTK_LABEL(p->facts), "These two cannot be compared.");
-        viewer_complain(v, job->problem.text);
+        viewer_complain_about(v, ABOUT_TABLE, job->problem.text);
         return;
     }
     keep(p, job);
@@ -267,7 +267,7 @@ static void show_busy(pane *p) {
     bool busy = viewer_fit_is_running(p->v);
     gtk_widget_set_sensitive(p->fit, p->v->compared[0] >= 0 && !busy);
     gtk_widget_set_sensitive(p->cancel, busy && !viewer_fit_is_cancelling(p->v));
-    gtk_widget_set_visible(p->progress, busy);
+    gtk_widget_set_opacity(p->progress, busy ? 1.0 : 0.0);
     if (busy) {
         show_progress(p);
     }

@@ -164,8 +164,16 @@ void viewer_exchange_ask_table(viewer *v) {
 static void ask_save_as(viewer *v, const char *name);
 
 /* A name that this tab cannot save is asked for once more, with an ending that it can. */
-static void save(viewer *v, const char *action, const char *path) {
+static void save(viewer *v, const char *action, const char *chosen) {
     const viewer_saving *saving = viewer_saving_now(v);
+    char *path = viewer_text_end_once(chosen);
+    if (path == NULL || g_file_test(path, G_FILE_TEST_EXISTS)) { /* which nobody was asked about */
+        free(path);
+        path = viewer_text_copy(chosen);
+    }
+    if (path == NULL) {
+        return;
+    }
     viewer_act_text(v, action, path);
     if (!viewer_saving_takes(saving, path)) {
         char *base = g_path_get_basename(path);
@@ -174,6 +182,7 @@ static void save(viewer *v, const char *action, const char *path) {
         g_free(name);
         g_free(base);
     }
+    free(path);
 }
 
 static void ask_save_as(viewer *v, const char *name) {

@@ -146,7 +146,7 @@ static void fit_deliver(viewer_job *base) {
     viewer *v = job->v;
     if (job->table == NULL) {
         atomic_load(&job->job.cancel) ? viewer_say(v, "The fit was cancelled.")
-                                      : viewer_complain(v, job->problem.text);
+                                      : viewer_complain_about(v, ABOUT_TABLE, job->problem.text);
     } else {
         char name[256];
         snprintf(name, sizeof name, "%zu: %zu plate%s fitted to %.150s",
@@ -161,6 +161,7 @@ static void fit_deliver(viewer_job *base) {
         char said[400];
         snprintf(said, sizeof said, "Table %s, in %.2f s. Save… FILE.plates keeps them.", name,
                  job->seconds);
+        viewer_complain_about(v, ABOUT_TABLE, "");
         viewer_say(v, said);
     }
     viewer_tell(v, CHANGED_TABLES | CHANGED_BUSY);
@@ -180,7 +181,7 @@ void viewer_fit_request(viewer *v, unsigned plates) {
         return;
     }
     if (v->compared[0] < 0) {
-        viewer_complain(v, VIEWER_NO_TABLE);
+        viewer_complain_about(v, ABOUT_TABLE, VIEWER_NO_TABLE);
         return;
     }
     fit_job *job = g_new0(fit_job, 1);

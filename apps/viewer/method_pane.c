@@ -112,6 +112,9 @@ static GtkWidget *parameter(pane *p, int option) {
     gtk_editable_set_width_chars(GTK_EDITABLE(entry), 5); /* at least */
     char buffer[32], label[48], help[VIEWER_WORDS_SIZE];
     viewer_words_method_field(option, label, sizeof label);
+    if (option == METHOD_AREA) {
+        g_strlcat(label, " [m²]", sizeof label);
+    }
     viewer_words_for_window(o->help, help, sizeof help);
     char *tip = g_strdup_printf("%s: %s (srp: --%s)", label, o->value, o->name);
     gtk_entry_set_placeholder_text(GTK_ENTRY(entry), default_of(option, buffer, sizeof buffer));
@@ -198,6 +201,11 @@ static void show_boxes(GtkWidget *label, int filled) {
     g_string_free(text, TRUE);
 }
 
+static double to_three_digits(double value) {
+    double unit = pow(10.0, fmax(0.0, floor(log10(value)) - 2.0));
+    return unit * round(value / unit);
+}
+
 static void show_probe(pane *p) {
     const viewer_probe *probe = &p->v->requests.probe;
     const char *otherwise = probe->state == PROBE_RUNS ? "measuring …" : "not known";
@@ -208,7 +216,7 @@ static void show_probe(pane *p) {
     if (probe->state == PROBE_KNOWN) {
         snprintf(accuracy, sizeof accuracy, "not known");
         fast = boxes_of(1.0 / probe->seconds, 1.0);
-        snprintf(speed, sizeof speed, "%.3g directions/s", 1.0 / probe->seconds);
+        snprintf(speed, sizeof speed, "%.0f directions/s", to_three_digits(1.0 / probe->seconds));
         if (probe->error == 0.0) {
             exact = BOXES;
             snprintf(accuracy, sizeof accuracy, "no sampling error");

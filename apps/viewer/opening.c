@@ -11,7 +11,7 @@ typedef struct opening_job {
     viewer *v;
     char *path;
     srp_table *table;
-    char summary[256];
+    char summary[320];
     viewer_words problem;
 } opening_job;
 
@@ -19,25 +19,35 @@ static void opening_run(viewer_job *base) {
     opening_job *job = (opening_job *)base;
     viewer_words_listen(&job->problem);
     if (cli_table_open_checked(job->path, &job->table) == CLI_DONE) {
-        cli_table_summary(job->table, job->summary, sizeof job->summary);
+        viewer_table_summary(job->table, NULL, job->summary, sizeof job->summary);
     }
     viewer_words_listen(NULL);
 }
 
 static void add_table(opening_job *job) {
     viewer *v = job->v;
-    char name[400];
+    char name[450];
     char *base = g_path_get_basename(job->path);
-    snprintf(name, sizeof name, "%zu: %.100s (%s)", v->session->table_count + 1, base,
-             job->summary);
-    g_free(base);
+    size_t number = v->session->table_count + 1;
+    snprintf(name, sizeof name, "%zu: %.100s (%s)", number, base, job->summary);
     viewer_table entry = {job->table, viewer_text_copy(name), NULL, job->path, 0};
     job->table = NULL;
     job->path = NULL;
     if (viewer_session_add_table(v->session, entry)) {
         v->table_shown = (int)v->session->table_count - 1;
     }
+    if (v->requests.not_opened.text[0] == '\0') {
+        viewer_complain_about(v, ABOUT_OPENING, "");
+    }
+    viewer_complain_about(v, ABOUT_TABLE, "");
+    char *said = g_strdup_printf("Table %zu: %s opened.", number, base);
+    viewer_say(v, said);
+    g_free(said);
+    g_free(base);
     int tab = gtk_notebook_get_current_page(v->tabs);
+    if (tab == TAB_COMPARE && v->compared[0] >= 0) {
+        v->compared[1] = v->table_shown;
+    }
     if (tab != TAB_GRAPHICS && tab != TAB_COMPARE) {
         gtk_notebook_set_current_page(v->tabs, TAB_GRAPHICS); /* where it is seen */
     }
@@ -58,7 +68,7 @@ static void opening_deliver(viewer_job *base) {
     } else {
         /* Of each of those that were asked for together. */
         viewer_words_add(&v->requests.not_opened, job->problem.text);
-        viewer_complain(v, v->requests.not_opened.text);
+        viewer_complain_about(v, ABOUT_OPENING, v->requests.not_opened.text);
     }
     viewer_tell(v, CHANGED_TABLES | CHANGED_BUSY);
 }
@@ -92,7 +102,6 @@ void viewer_opening_add(viewer *v, const char *path) {
     g_queue_push_tail(&v->requests.to_open, copy);
     if (!viewer_opening_is_running(v)) {
         v->requests.not_opened = (viewer_words){""};
-        viewer_complain(v, "");
         read_next(v);
     }
     viewer_tell(v, CHANGED_BUSY);

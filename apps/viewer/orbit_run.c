@@ -122,7 +122,8 @@ static void choose(viewer *v, int which, char *path, char *name) {
     k->orbit.path[which] = path;
     k->orbit.name[which] = name;
     ++k->choice;
-    viewer_forget_news(v); /* of the run of the last choice */
+    viewer_complain_about(v, ABOUT_MISSION, ""); /* of the last choice */
+    viewer_forget_news(v);
 }
 
 static void run_when_read(viewer *v) {
@@ -140,7 +141,7 @@ static void read_deliver(viewer_job *base) {
         /* Another one was asked for, or none. */
     } else if (!job->good) {
         keeper_of(v)->run_waits = false;
-        viewer_complain(v, job->problem.text);
+        viewer_complain_about(v, ABOUT_MISSION, job->problem.text);
     } else {
         choose(v, job->which, job->path, job->name);
         job->path = job->name = NULL;
@@ -162,7 +163,6 @@ static void read_release(viewer_job *base) {
 void viewer_orbit_open(viewer *v, int which, const char *path) {
     const unsigned slot = which == 0 ? SLOT_MISSION : SLOT_VERSUS;
     viewer_worker_cancel(v->requests.tables, slot);
-    viewer_complain(v, "");
     if (path[0] != '\0') {
         read_job *job = g_new0(read_job, 1);
         job->job = (viewer_job){.run = read_run, .deliver = read_deliver, .release = read_release};
@@ -298,8 +298,9 @@ static void orbit_deliver(viewer_job *base) {
         viewer_say(v, "The mission was cancelled.");
     } else if (!job->good) {
         free_rows(orbit);
-        viewer_complain(v, job->problem.text);
+        viewer_complain_about(v, ABOUT_MISSION, job->problem.text);
     } else {
+        viewer_complain_about(v, ABOUT_MISSION, "");
         free_result(orbit);
         job->made.path[0] = orbit->path[0];
         job->made.path[1] = orbit->path[1];
@@ -329,7 +330,7 @@ void viewer_orbit_run(viewer *v) {
         return;
     }
     if (k->orbit.path[0] == NULL) {
-        viewer_complain(v, NO_MISSION);
+        viewer_complain_about(v, ABOUT_MISSION, NO_MISSION);
         return;
     }
     orbit_job *job = g_new0(orbit_job, 1);

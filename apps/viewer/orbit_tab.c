@@ -190,15 +190,16 @@ static void show_result(pane *p, const viewer_orbit *orbit) {
     }
     if (orbit->count > 0) {
         size_t end = orbit->count - 1;
-        snprintf(last, sizeof last, "at the end: %.9g, %.9g, %.9g m; distance %.9g m",
-                 orbit->value[0][end], orbit->value[1][end], orbit->value[2][end],
-                 orbit->value[3][end]);
+        const char *const *names = orbit->is_difference ? DIFFERENCE : POSITION;
+        snprintf(last, sizeof last, "at the end: %s %.9g, %s %.9g, %s %.9g, %s %.9g m", names[0],
+                 orbit->value[0][end], names[1], orbit->value[1][end], names[2],
+                 orbit->value[2][end], names[3], orbit->value[3][end]);
     }
     gtk_label_set_text(GTK_LABEL(p->facts),
-                       text != NULL
-                           ? text
-                           : "A mission file describes an orbit (docs: Missions). A second one, of "
-                             "another model of sunlight, is compared with it.");
+                       text != NULL ? text
+                                    : "A mission file describes an orbit (user guide: Propagate an "
+                                      "orbit). A second one, of "
+                                      "another model of sunlight, is compared with it.");
     g_free(text);
     gtk_label_set_text(GTK_LABEL(p->last), last);
     gtk_widget_queue_draw(p->plot);

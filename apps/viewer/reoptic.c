@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct reoptic_job {
     viewer_job job;
@@ -57,7 +58,7 @@ static void refuse(const reoptic_job *job) {
     }
     char *said = g_strdup_printf("Table %s cannot be given other optics: %s. Compute it again.",
                                  job->from->name, why);
-    viewer_complain(job->v, said);
+    viewer_complain_about(job->v, ABOUT_TABLE, said);
     g_free(said);
 }
 
@@ -69,8 +70,10 @@ static void reoptic_deliver(viewer_job *base) {
         refuse(job);
         return;
     }
-    char *name = g_strdup_printf("%zu: %s, other optics than %.120s", v->session->table_count + 1,
-                                 srp_table_get_info(job->made)->title, job->from->name);
+    char summary[320];
+    viewer_table_summary(job->made, NULL, summary, sizeof summary);
+    char *name = g_strdup_printf("%zu: %s, re-optic of %.*s", v->session->table_count + 1, summary,
+                                 (int)strcspn(job->from->name, ":"), job->from->name);
     viewer_table table = {job->made, viewer_text_copy(name), job->command, NULL, 0};
     job->made = NULL;
     job->command = NULL;
@@ -78,6 +81,7 @@ static void reoptic_deliver(viewer_job *base) {
         v->table_shown = (int)v->session->table_count - 1;
     }
     char *said = g_strdup_printf("Table %s: direct light by its sums, nothing traced.", name);
+    viewer_complain_about(v, ABOUT_TABLE, "");
     viewer_say(v, said);
     g_free(said);
     g_free(name);
@@ -99,11 +103,12 @@ void viewer_reoptic_request(viewer *v) {
         return;
     }
     if (at < 0) {
-        viewer_complain(v, VIEWER_NO_TABLE);
+        viewer_complain_about(v, ABOUT_TABLE, VIEWER_NO_TABLE);
         return;
     }
     if (!viewer_session_table_is_old(v->session, (size_t)at)) {
-        viewer_complain(v, "This table is not of other optics of the spacecraft shown.");
+        viewer_complain_about(v, ABOUT_TABLE,
+                              "This table is not of other optics of the spacecraft shown.");
         return;
     }
     reoptic_job *job = g_new0(reoptic_job, 1);

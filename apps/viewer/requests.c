@@ -354,21 +354,21 @@ static void table_deliver(viewer_job *base) {
     if (job->status == SRP_CANCELLED) {
         viewer_say(v, "The table was cancelled.");
     } else if (job->status != SRP_OK) {
-        viewer_complain(v, job->error.message);
+        viewer_complain_about(v, ABOUT_TABLE, job->error.message);
     } else {
-        char name[256];
-        snprintf(name, sizeof name, "%zu: %.100s, %s, %g° × %g°", v->session->table_count + 1,
-                 job->title, job->engine->method->name, 360.0 / (job->grid.az_count - 1),
-                 180.0 / (job->grid.el_count - 1));
+        char summary[320], name[350];
+        viewer_table_summary(job->table, job->engine->setup, summary, sizeof summary);
+        snprintf(name, sizeof name, "%zu: %s", v->session->table_count + 1, summary);
         viewer_table table = {job->table, viewer_text_copy(name), job->command, NULL, 0};
         job->table = NULL;
         job->command = NULL;
         if (viewer_session_add_table(v->session, table)) {
             v->table_shown = (int)v->session->table_count - 1;
         }
-        char said[300];
+        char said[400];
         snprintf(said, sizeof said, "Table %s: computed in %.2f s.", name,
                  viewer_seconds() - v->requests.table.began);
+        viewer_complain_about(v, ABOUT_TABLE, "");
         viewer_say(v, said);
     }
     viewer_tell(v, CHANGED_TABLES | CHANGED_BUSY);
@@ -431,7 +431,7 @@ void viewer_request_table(viewer *v) {
         return;
     }
     if (srp_grid_from_steps(v->az_step_deg, v->el_step_deg, &grid, &error) != SRP_OK) {
-        viewer_complain(v, error.message);
+        viewer_complain_about(v, ABOUT_TABLE, error.message);
         return;
     }
     table_job *job = g_new0(table_job, 1);

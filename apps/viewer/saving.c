@@ -145,7 +145,7 @@ static void refuse(viewer *v, const char *path) {
             g_string_append_printf(text, " %s saves %s.", tab_words(v, i), SAVINGS[i].what);
         }
     }
-    viewer_complain(v, text->str);
+    viewer_complain_about(v, ABOUT_SAVING, text->str);
     g_string_free(text, TRUE);
 }
 
@@ -161,10 +161,11 @@ void viewer_save(viewer *v, const char *path) {
         return;
     }
     if (!saving->save(v, path, &problem)) {
-        viewer_complain(v, problem.text);
+        viewer_complain_about(v, ABOUT_SAVING, problem.text);
         return;
     }
     char *said = g_strdup_printf("Saved %s.", path);
+    viewer_complain_about(v, ABOUT_SAVING, "");
     viewer_say(v, said);
     g_free(said);
 }

@@ -22,9 +22,10 @@ typedef struct script {
     const char *shot; /* picture to take then; NULL: none */
     char *unexpected; /* complaint that nothing has expected yet, NULL: none */
     size_t unexpected_at;
-    char *expected;   /* the last one that was */
-    double ticked_at; /* NAN: not since the last `stall` */
-    double stall;     /* the longest time between two ticks since then [s] */
+    char *expected;      /* the last one that was */
+    unsigned complaints; /* heard of */
+    double ticked_at;    /* NAN: not since the last `stall` */
+    double stall;        /* the longest time between two ticks since then [s] */
 } script;
 
 enum { TICK_MS = 4, FRAMES_TO_SHOW = 3 };
@@ -64,30 +65,33 @@ static void judge_complaint(script *s) {
 
 static void note_complaint(script *s) {
     judge_complaint(s);
-    s->unexpected = g_strdup(s->v->message);
+    s->unexpected = g_strdup(s->v->problem);
     s->unexpected_at = s->at;
 }
 
 static void accept_complaint(script *s) {
     g_clear_pointer(&s->unexpected, g_free);
     g_free(s->expected);
-    s->expected = g_strdup(s->v->message);
+    s->expected = g_strdup(s->v->problem);
 }
 
 static void on_changed(void *user, unsigned what) {
     script *s = user;
     const viewer *v = s->v;
-    if ((what & CHANGED_MESSAGE) != 0 && v->message_is_problem && !v->message_is_of_model) {
-        note_complaint(s);
+    if ((what & CHANGED_MESSAGE) != 0 && v->complaints != s->complaints) {
+        s->complaints = v->complaints;
+        if (v->topic != ABOUT_MODEL) {
+            note_complaint(s);
+        }
     }
 }
 
 /* What is wrong with the model counts where it stands after a wait of the script: while that is
  * still saying what the model is, it may well lack something. */
 static void note_complaint_of_model(script *s) {
-    const char *text = s->v->message;
-    if (s->v->message_is_of_model && s->at > 0 && g_strcmp0(text, s->expected) != 0 &&
-        g_strcmp0(text, s->unexpected) != 0) {
+    const char *text = s->v->problem;
+    if (text[0] != '\0' && s->v->topic == ABOUT_MODEL && s->at > 0 &&
+        g_strcmp0(text, s->expected) != 0 && g_strcmp0(text, s->unexpected) != 0) {
         note_complaint(s);
     }
 }
@@ -166,7 +170,7 @@ static gboolean expect_text(script *s, char *words) {
                                      wanted != NULL ? wanted : "");
         fail(s, said);
         g_free(said);
-    } else if (strcmp(words, "message") == 0 && s->v->message_is_problem) {
+    } else if (strcmp(words, "message") == 0 && s->v->problem[0] != '\0') {
         accept_complaint(s);
     }
     g_free(text);

@@ -4,6 +4,7 @@
 #include <srp/const.h>
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -284,6 +285,86 @@ char *viewer_session_table_label(const viewer_session *session, size_t index) {
         snprintf(label, size, "%.*s%s%s", number, name, old, name + number);
     }
     return label;
+}
+
+/* ---- what a table is of ---- */
+
+typedef struct text {
+    char *at;
+    size_t room;
+} text;
+
+static void append(text *t, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    int length = vsnprintf(t->at, t->room, format, list);
+    va_end(list);
+    size_t used = length > 0 && t->room > 0 ? (size_t)length : 0;
+    used = used < t->room ? used : t->room - 1;
+    t->at += used;
+    t->room -= used;
+}
+
+static void append_lattice(text *t, const srp_lattice_params *lattice) {
+    if (lattice->kind == SRP_LATTICE_WINDOW) {
+        const double *w = lattice->window;
+        append(t, " window %g,%g,%g,%g of %u × %u", w[0], w[1], w[2], w[3],
+               (unsigned)lattice->columns, (unsigned)lattice->rows);
+    } else if (!isnan(lattice->pixel)) {
+        append(t, " pixel %g m", lattice->pixel);
+    }
+}
+
+/* A table keeps what its method uses, the rest is as by default. */
+static void append_params(text *t, const srp_method_params *params) {
+    const srp_method_params usual = srp_method_params_default();
+    const struct {
+        const char *name;
+        double value, usual;
+    } numbers[] = {
+        {"grid", params->lattice.samples, usual.lattice.samples},
+        {"seed", (double)params->seed, (double)usual.seed},
+        {"tolerance", params->tolerance, usual.tolerance},
+        {"max grid", params->max_samples, usual.max_samples},
+        {"reflections", params->reflections, usual.reflections},
+        {"diffuse", params->diffuse, usual.diffuse},
+        {"beams", params->mirrored_beams, usual.mirrored_beams},
+    };
+    append_lattice(t, &params->lattice);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
+        if (numbers[i].value != numbers[i].usual) {
+            append(t, " %s %.15g", numbers[i].name, numbers[i].value);
+        }
+    }
+}
+
+/* Cannonball and unit are in no table. */
+static void append_setup(text *t, const viewer_setup *setup) {
+    const srp_method *method = viewer_setup_method(setup);
+    const char *unit = setup->model_option[MODEL_UNIT];
+    if (method != NULL && cli_method_uses(method, METHOD_CR)) {
+        append(t, " Cr %s area %s m²", setup->method_option[METHOD_CR],
+               setup->method_option[METHOD_AREA]);
+    }
+    if (unit != NULL && method != NULL && (method->shapes & SRP_SHAPE_MESH) != 0) {
+        append(t, ", unit %s", unit);
+    }
+}
+
+void viewer_table_summary(const srp_table *table, const viewer_setup *setup, char *buffer,
+                          size_t size) {
+    const srp_table_info *info = srp_table_get_info(table);
+    srp_grid grid = srp_table_grid(table);
+    text t = {buffer, size};
+    bool named = info->method[0] != '\0' && strcmp(info->method, info->title) != 0;
+    append(&t, "%.100s%s%s", info->title, named && info->title[0] != '\0' ? ", " : "",
+           named ? info->method : "");
+    append_params(&t, &info->params);
+    if (setup != NULL) {
+        append_setup(&t, setup);
+    }
+    append(&t, "%s%g° × %g°", t.at > buffer ? ", " : "", 360.0 / (grid.az_count - 1),
+           180.0 / (grid.el_count - 1));
 }
 
 srp_status viewer_table_reoptic(const viewer_table *table, const viewer_engine *engine,

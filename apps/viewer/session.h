@@ -114,6 +114,10 @@ void viewer_session_clear_tables(viewer_session *session);
 bool viewer_session_table_is_old(const viewer_session *session, size_t index);
 /* What lists show of it; freed by free(), NULL without memory. */
 char *viewer_session_table_label(const viewer_session *session, size_t index);
+/* What a table is of: "box-wing.obj, raycast grid 64, 10° × 10°", with the parameters that are not
+ * the defaults. `setup` knows what a table does not keep; NULL: it was read from disk. */
+void viewer_table_summary(const srp_table *table, const viewer_setup *setup, char *buffer,
+                          size_t size);
 /* The table under the optics that the materials have now, by srp_table_reoptic(). */
 srp_status viewer_table_reoptic(const viewer_table *table, const viewer_engine *engine,
                                 srp_table **out, srp_error *error);

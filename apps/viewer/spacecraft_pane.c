@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The spacecraft: file, what is odd about it, materials, mass, reference point. */
+#include "messages.h"
 #include "numbers.h"
 #include "ui.h"
 #include "viewer.h"
@@ -47,8 +48,9 @@ static void show_facts(pane *p, const viewer_shape *shape) {
     const srp_mesh_report *r = &shape->info.report;
     srp_vec3 size = srp_vec3_sub(r->box_max, r->box_min);
     char *text = g_strdup_printf(
-        "%zu triangles · %zu %s · %zu %s · %.3g × %.3g × %.3g m · %.4g m² of surface", r->triangles,
-        r->components, r->components == 1 ? "part" : "parts", shape->info.material_count,
+        "%zu %s · %zu %s · %zu %s · %.3g × %.3g × %.3g m · %.4g m² of surface", r->triangles,
+        cli_form(r->triangles, "triangle", "triangles"), r->components,
+        r->components == 1 ? "part" : "parts", shape->info.material_count,
         shape->info.material_count == 1 ? "material" : "materials", size.x, size.y, size.z,
         r->area);
     gtk_label_set_text(GTK_LABEL(p->facts), text);

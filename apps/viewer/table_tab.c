@@ -57,7 +57,7 @@ static gboolean on_tick(gpointer user) {
 static void show_busy(pane *p) {
     bool busy = viewer_worker_is_busy(p->v->requests.batch, SLOT_TABLE);
     gtk_widget_set_sensitive(p->cancel, busy && !viewer_table_is_cancelling(p->v));
-    gtk_widget_set_visible(p->progress, busy);
+    gtk_widget_set_opacity(p->progress, busy ? 1.0 : 0.0);
     if (busy) {
         show_progress(p);
     }

@@ -2,6 +2,7 @@
 #include "viewer.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 const char *const VIEWER_TAB_NAME[TAB_COUNT] = {"spacecraft", "graphics", "compare", "orbit"};
@@ -24,46 +25,54 @@ void viewer_tell(viewer *v, unsigned what) {
     }
 }
 
-/* The same complaint twice is told twice: it is of two things that went wrong. */
-static void set_message(viewer *v, const char *text, bool is_problem, bool is_of_model) {
-    g_strlcpy(v->message, text, sizeof v->message);
-    v->message_is_problem = is_problem;
-    v->message_is_of_model = is_of_model;
+/* What is wrong comes first, news under it. */
+static void show_message(viewer *v) {
+    const char *between = v->problem[0] != '\0' && v->news[0] != '\0' ? "\n" : "";
+    snprintf(v->message, sizeof v->message, "%s%s%s", v->problem, between, v->news);
     viewer_tell(v, CHANGED_MESSAGE);
 }
 
 void viewer_say(viewer *v, const char *text) {
-    set_message(v, text, false, false);
+    g_strlcpy(v->news, text, sizeof v->news);
+    show_message(v);
 }
 
 void viewer_forget_news(viewer *v) {
-    if (!v->message_is_problem) {
+    if (v->news[0] != '\0') {
         viewer_say(v, "");
     }
 }
 
-static void complain(viewer *v, const char *text, bool is_of_model) {
+void viewer_dismiss(viewer *v) {
+    v->problem[0] = '\0';
+    viewer_say(v, "");
+}
+
+/* The same complaint twice is told twice: it is of two things that went wrong. */
+void viewer_complain_about(viewer *v, viewer_topic topic, const char *text) {
     char words[VIEWER_WORDS_SIZE];
     viewer_words_for_window(text, words, sizeof words);
-    if (words[0] != '\0' || v->message_is_problem) {
-        set_message(v, words, words[0] != '\0', is_of_model);
+    if (words[0] != '\0') {
+        v->topic = topic;
+        ++v->complaints;
+        v->news[0] = '\0';
+    } else if (v->problem[0] == '\0' || v->topic != topic) {
+        return;
     }
+    g_strlcpy(v->problem, words, sizeof v->problem);
+    show_message(v);
 }
 
 void viewer_complain(viewer *v, const char *text) {
-    complain(v, text, false);
+    viewer_complain_about(v, ABOUT_STEP, text);
 }
 
 void viewer_complain_no_more(viewer *v) {
-    if (!v->message_is_of_model) {
-        viewer_complain(v, "");
-    }
+    viewer_complain(v, "");
 }
 
 void viewer_complain_of_model(viewer *v, const char *text) {
-    if (text[0] != '\0' || v->message_is_of_model) {
-        complain(v, text, text[0] != '\0');
-    }
+    viewer_complain_about(v, ABOUT_MODEL, text);
 }
 
 void viewer_set_camera(viewer *v, double az_deg, double el_deg, double zoom) {

@@ -42,6 +42,16 @@ extern const char *const VIEWER_TAB_NAME[TAB_COUNT]; /* as actions know them */
 
 enum { VIEWER_CHARTS = 4 }; /* x, y, z and length of what is drawn over all directions */
 
+/* What a complaint is about: only a success of the same kind takes it back. */
+typedef enum viewer_topic {
+    ABOUT_STEP, /* something that was refused */
+    ABOUT_MODEL,
+    ABOUT_OPENING, /* tables */
+    ABOUT_TABLE,   /* computed, fitted, or missing */
+    ABOUT_SAVING,
+    ABOUT_MISSION
+} viewer_topic;
+
 typedef struct viewer viewer;
 typedef void (*viewer_listener)(void *pane, unsigned what);
 
@@ -67,11 +77,12 @@ struct viewer {
     int plates_to_fit;
     double az_step_deg, el_step_deg;
     /* What there is to say. */
-    char message[VIEWER_WORDS_SIZE];
-    bool message_is_problem;
-    bool message_is_of_model; /* a problem that a new engine takes back */
-    bool picture_is_old;      /* the 3D area has not drawn the newest state yet */
-    double asked_at;          /* when the newest force was asked for, NAN: shown already */
+    char problem[VIEWER_WORDS_SIZE], news[VIEWER_WORDS_SIZE]; /* "": none */
+    char message[2 * VIEWER_WORDS_SIZE];                      /* both, as they are shown */
+    viewer_topic topic;                                       /* of the problem */
+    unsigned complaints;                                      /* how many there have been */
+    bool picture_is_old; /* the 3D area has not drawn the newest state yet */
+    double asked_at;     /* when the newest force was asked for, NAN: shown already */
     GPtrArray *listeners;
     int exit_status;
     bool scripted;  /* the window closes when the script is at its end */
@@ -82,16 +93,19 @@ void viewer_listen(viewer *v, viewer_listener changed, void *pane);
 /* Something changed: every pane hears of it, now. */
 void viewer_tell(viewer *v, unsigned what);
 
-/* A line for the user, until the next one or the next step; "" says nothing. */
+/* A line for the user, until the next one or the next step; "" says nothing. What went wrong stands
+ * above it. */
 void viewer_say(viewer *v, const char *text);
 /* The user takes another step: what was said stands no more, but for what went wrong. */
 void viewer_forget_news(viewer *v);
-/* The same for what went wrong; "" takes back the last complaint, and nothing else. Options of the
- * command line are named as the window names them. */
-void viewer_complain(viewer *v, const char *text);
+/* The user has read it all. */
+void viewer_dismiss(viewer *v);
 
-/* After something was taken: what was refused before is forgotten, but not what is wrong with
- * spacecraft or method. */
+/* What went wrong, until the next complaint; "" takes back one about the same topic, and no other.
+ * Options of the command line are named as the window names them. */
+void viewer_complain_about(viewer *v, viewer_topic topic, const char *text);
+/* The same about a step, and after one that was taken. */
+void viewer_complain(viewer *v, const char *text);
 void viewer_complain_no_more(viewer *v);
 /* The same for what is wrong with spacecraft or method: stands until the next engine. */
 void viewer_complain_of_model(viewer *v, const char *text);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The window: header, spacecraft, method, tabs, and a line for what there is to say. */
+/* The window: header, spacecraft, method, tabs, and below them a line for what there is to say. */
 #include "actions.h"
 #include "dropping.h"
 #include "loading.h"
@@ -12,7 +12,7 @@
 
 typedef struct frame {
     viewer *v;
-    GtkWidget *message, *bar, *more, *whole, *busy;
+    GtkWidget *message, *bar, *buttons, *more, *whole, *busy;
 } frame;
 
 /* ---- header ---- */
@@ -74,14 +74,16 @@ static void show_message(frame *f) {
     gtk_label_set_text(GTK_LABEL(f->message), text);
     gtk_label_set_text(GTK_LABEL(f->whole), f->v->message);
     gtk_widget_set_visible(f->more, *end != '\0');
-    gtk_widget_set_visible(f->bar, f->v->message[0] != '\0');
+    bool any = f->v->message[0] != '\0';
+    gtk_widget_set_visible(f->buttons, any);
+    any ? gtk_widget_add_css_class(f->bar, "told") : gtk_widget_remove_css_class(f->bar, "told");
     g_free(text);
     g_free(head);
 }
 
 static void on_dismiss(GtkButton *button, gpointer user) {
     (void)button;
-    viewer_say(((frame *)user)->v, "");
+    viewer_dismiss(((frame *)user)->v);
 }
 
 static GtkWidget *message_label(const char *name) {
@@ -92,6 +94,7 @@ static GtkWidget *message_label(const char *name) {
     return label;
 }
 
+/* Its line is there also while it is empty, so that nothing moves under the pointer. */
 static GtkWidget *make_message(frame *f) {
     GtkWidget *box = ui_box(GTK_ORIENTATION_HORIZONTAL, 8);
     GtkWidget *dismiss = gtk_button_new_with_label("×");
@@ -118,7 +121,8 @@ static GtkWidget *make_message(frame *f) {
     gtk_box_append(GTK_BOX(column), buttons);
     gtk_box_append(GTK_BOX(box), column);
     gtk_widget_add_css_class(box, "banner");
-    gtk_widget_set_visible(box, FALSE);
+    gtk_widget_set_visible(buttons, FALSE);
+    f->buttons = buttons;
     f->bar = box;
     return box;
 }
@@ -144,7 +148,7 @@ static void on_changed(void *pane, unsigned what) {
     }
     if ((what & CHANGED_MESSAGE) != 0) {
         show_message(f);
-        f->v->message_is_problem ? gtk_widget_add_css_class(f->bar, "problem")
+        f->v->problem[0] != '\0' ? gtk_widget_add_css_class(f->bar, "problem")
                                  : gtk_widget_remove_css_class(f->bar, "problem");
     }
     if ((what & (CHANGED_BUSY | CHANGED_ENGINE | CHANGED_TABLES | CHANGED_ORBIT)) != 0) {
@@ -203,8 +207,8 @@ void viewer_build_window(viewer *v) {
     GtkWidget *box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
     gtk_box_append(GTK_BOX(box), viewer_spacecraft_pane(v));
     gtk_box_append(GTK_BOX(box), viewer_method_pane(v));
-    gtk_box_append(GTK_BOX(box), make_message(f));
     gtk_box_append(GTK_BOX(box), GTK_WIDGET(v->tabs));
+    gtk_box_append(GTK_BOX(box), make_message(f));
     add_tab(v, "_Visualize Spacecraft", viewer_scene_tab(v));
     add_tab(v, "Visualize _Graphics", viewer_table_tab(v));
     add_tab(v, "_Compare Graphics", viewer_compare_tab(v));

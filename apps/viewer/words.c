@@ -24,6 +24,16 @@ char *viewer_text_copy(const char *text) {
     return copy;
 }
 
+char *viewer_text_end_once(const char *name) {
+    char *copy = viewer_text_copy(name);
+    const char *dot = copy != NULL ? strrchr(copy, '.') : NULL;
+    size_t length = dot != NULL ? strlen(dot) : 0, before = dot != NULL ? (size_t)(dot - copy) : 0;
+    if (length > 1 && before > length && strncmp(dot - length, dot, length) == 0) {
+        copy[before] = '\0';
+    }
+    return copy;
+}
+
 void viewer_words_add(viewer_words *words, const char *line) {
     size_t used = strlen(words->text);
     snprintf(words->text + used, sizeof words->text - used, "%s%s", used > 0 ? "\n" : "", line);
@@ -69,8 +79,9 @@ static const cli_option *find_option(const char *name, size_t length) {
 
 /* Its own name with a capital, where the window has no other. */
 static void field_of(const cli_option *option, char *out, size_t size) {
-    static const char *const other[][2] = {
-        {"material", "Materials"}, {"plates", "a file by Choose Plates…"}, {"reference", "Moments about"}};
+    static const char *const other[][2] = {{"material", "Materials"},
+                                           {"plates", "a file by Choose Plates…"},
+                                           {"reference", "Moments about"}};
     for (size_t i = 0; i < sizeof other / sizeof other[0]; ++i) {
         if (strcmp(option->name, other[i][0]) == 0) {
             snprintf(out, size, "%s", other[i][1]);

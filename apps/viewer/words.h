@@ -13,6 +13,10 @@ extern const char VIEWER_NO_TABLE[], VIEWER_NO_SPACECRAFT[];
 /* A copy, freed by free(); NULL for NULL and without memory. */
 char *viewer_text_copy(const char *text);
 
+/* A copy of a file's name that ends with the same ending once: "a.nc" for "a.nc.nc", which is typed
+ * over the part that a dialog selects. */
+char *viewer_text_end_once(const char *name);
+
 /* What went wrong or is worth a warning: sentences, one a line. Put one on the stack, all zeros. */
 enum { VIEWER_WORDS_SIZE = 2048 };
 typedef struct viewer_words {

@@ -160,7 +160,7 @@ between pair > "$scratch/pair"
 between fit > "$scratch/fit"
 case $(value table) in
 *'of other optics'*) fail "the new table is of other optics: $(value table)" ;;
-*'other optics than'*) ;;
+*', exact, 15° × 15°, re-optic of 1') ;;
 *) fail "the new table is '$(value table)'" ;;
 esac
 model=$ROOT/models/box-wing.obj
@@ -220,7 +220,7 @@ save $scratch/viewer.csv
 END
     view 0 --actions "$scratch/steps"
     cmp "$scratch/cli.csv" "$scratch/viewer.csv" || fail 'other rows than srp propagate'
-    want=$(tail -1 "$scratch/cli.csv" | awk -F, '{ print "at the end: " $2 ", " $3 ", " $4 " m; distance " $5 " m" }')
+    want=$(tail -1 "$scratch/cli.csv" | awk -F, '{ print "at the end: radial " $2 ", along-track " $3 ", cross-track " $4 ", distance " $5 " m" }')
     [ "$(value orbit-end)" = "$want" ] || fail "'$(value orbit-end)', srp propagate has '$want'"
     [ -n "$(ls "$XDG_CACHE_HOME/srpcore")" ] || fail 'the mission left nothing in the cache'
 else

@@ -152,5 +152,5 @@ END
 view 0 --actions "$scratch/steps"
 { [ -L "$scratch/link.csv" ] && [ -s "$scratch/target.csv" ]; } || fail 'the link is replaced'
 [ -L "$scratch/full.csv" ] || fail 'the link to /dev/full is replaced'
-"$CHECK" "$SHOTS/orbit-identical.png" 1280 800 540 528 260 18 20 0.99 || fail 'the picture does not say that they are identical'
+"$CHECK" "$SHOTS/orbit-identical.png" 1280 800 540 498 260 18 20 0.99 || fail 'the picture does not say that they are identical'
 judge

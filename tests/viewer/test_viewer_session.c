@@ -443,6 +443,18 @@ START_TEST(colours_from_blue_to_red) {
 }
 END_TEST
 
+START_TEST(names_end_once) {
+    static const char *const names[][2] = {
+        {"/a.nc.nc", "/a.nc"}, {"a.b.nc", "a.b.nc"},   {"a.nc", "a.nc"}, {".nc.nc", ".nc.nc"},
+        {"b.c/a", "b.c/a"},    {"nothing", "nothing"}, {"a..", "a.."}};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        char *name = viewer_text_end_once(names[i][0]);
+        ck_assert_str_eq(name, names[i][1]);
+        free(name);
+    }
+}
+END_TEST
+
 static void add_latency(viewer_session *session, double shown, double computed) {
     session->force.seconds = computed;
     viewer_session_add_latency(session, shown);
@@ -526,6 +538,7 @@ static Suite *make_suite(void) {
     tcase_add_test(cases, arrows_begin_with_the_force_of_now);
     tcase_add_test(cases, arrows_end_with_their_method);
     tcase_add_test(cases, colours_from_blue_to_red);
+    tcase_add_test(cases, names_end_once);
     tcase_add_test(cases, latency_is_a_median);
     tcase_add_test(cases, camera_stays_in_the_room);
     suite_add_tcase(suite, cases);

@@ -81,11 +81,12 @@ expect accuracy-words from exact
 expect method raycast
 compute-table
 wait
-expect table raycast
+expect table 2: box-wing.obj, raycast grid 64, 10° × 10°
 screenshot $SHOTS/6-second.png
 open-table $scratch/exact.txt
 wait
-expect table exact.txt
+expect table exact.txt (box-wing.obj, 10° × 10°)
+expect message Table 3: exact.txt opened
 
 tab compare
 compare-a 1
