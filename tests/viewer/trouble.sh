@@ -219,7 +219,7 @@ expect table cube.obj, exact
 material surface=0.5,0.25
 reoptic
 wait
-expect message other optics
+expect message re-optic of 3
 method cannonball
 compute-table
 cancel
