@@ -146,6 +146,7 @@ static GtkWidget *make_strip(pane *p) {
     p->start = ui_button("_Start", "compute-table", "Compute a table of all directions (Ctrl+T)");
     p->cancel = ui_button("C_ancel", "cancel", "Stop (Ctrl+.)");
     p->progress = ui_progress("progress", "Progress of the table");
+    gtk_widget_set_size_request(p->progress, 240, -1); /* room for all that it may say */
     p->table = ui_choice("table", G_CALLBACK(on_choice), p);
     gtk_widget_set_hexpand(p->table, TRUE);
     gtk_widget_set_size_request(p->table, 240, -1);

@@ -101,6 +101,43 @@ END
 view_and_feed 0
 [ -z "$(value table)" ] || fail "there is a table that was forgotten: $(value table)"
 
+# A spacecraft stays until another one has been read, and where that is not wanted any more.
+mkfifo "$scratch/slow.obj"
+cp "$ROOT/models/cube.mtl" "$scratch/"
+cat > "$scratch/steps" << END
+wait
+open $scratch/slow.obj
+expect busy Opening …
+expect model-name box-wing.obj
+expect model-facts 60 triangles
+turn-z 33
+pause 0.3
+expect f-x e+
+cancel
+note first
+wait
+print message
+expect model-name box-wing.obj
+open $scratch/slow.obj
+compute-table
+pause 0.3
+note second
+wait
+expect model-name slow.obj
+expect table slow.obj
+END
+: > "$scratch/out"
+(
+    for note in first second; do
+        until grep -q "^$note" "$scratch/out"; do sleep 0.05; done
+        cat "$ROOT/models/cube.obj" > "$scratch/slow.obj"
+    done
+) &
+writer=$!
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+kill "$writer" 2> /dev/null
+[ -z "$(value message)" ] || fail "a message of what was not wanted any more: $(value message)"
+
 # The window is closed while it reads.
 "$SRP" table --method cannonball --cr 1.25 --area 2.5 --step 0.5 --mass 12.5 -o "$scratch/large.txt" > "$scratch/log" 2>&1 ||
     fail 'srp table'
@@ -211,13 +248,13 @@ wait
 expect message no-such.nc
 place turn-z
 tab graphics
+az-step 0.5
+el-step 0.5
 pause 0.3
 place table
-az-step 2
-el-step 2
 compute-table
-pause 0.3
 expect busy Computing …
+pause 0.3
 place table
 cancel
 wait
