@@ -4,8 +4,8 @@
 #ifndef SRP_VIEWER_REQUESTS_H
 #define SRP_VIEWER_REQUESTS_H
 
-#include "words.h"
 #include "engine.h"
+#include "words.h"
 #include "worker.h"
 
 #include <stdatomic.h>
