@@ -8,6 +8,7 @@
 #include <srp/table.h>
 
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -249,6 +250,23 @@ viewer_engine *viewer_engine_reference(viewer_engine *engine) {
     return engine;
 }
 
+static void *give_back(void *prepared) {
+    srp_prepared_release(prepared);
+    return NULL;
+}
+
+/* A method of OpenGL leaves no context current on the thread that gives it back (srp/gl.h), and the
+ * window may be drawing by OpenGL on this one: another thread does it. */
+static void release_prepared(const viewer_engine *engine) {
+    pthread_t thread;
+    if (engine->prepared != NULL && strcmp(engine->method->device, "cpu") != 0 &&
+        pthread_create(&thread, NULL, give_back, engine->prepared) == 0) {
+        (void)pthread_join(thread, NULL);
+    } else {
+        srp_prepared_release(engine->prepared);
+    }
+}
+
 void viewer_engine_release(viewer_engine *engine) {
     if (engine == NULL || atomic_fetch_sub(&engine->references, 1) != 1) {
         return;
@@ -256,7 +274,7 @@ void viewer_engine_release(viewer_engine *engine) {
     const srp_scene *own = engine->owns_scene && engine->prepared != NULL
                                ? srp_prepared_scene(engine->prepared)
                                : NULL;
-    srp_prepared_release(engine->prepared);
+    release_prepared(engine);
     srp_scene_destroy((srp_scene *)own);
     srp_scene_destroy(engine->mesh);
     viewer_shape_release(engine->shape);

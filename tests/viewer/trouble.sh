@@ -285,6 +285,21 @@ grep -q '^stall: [0-9]* ms$' "$scratch/out" || fail 'does not say for how long i
 cmp -s "$SHOTS/large-1.png" "$SHOTS/large-3.png" || fail 'the large spacecraft is not whole again'
 ! cmp -s "$SHOTS/large-1.png" "$SHOTS/large-2.png" || fail 'the large spacecraft casts no shadow'
 
+# A method of OpenGL that is given back takes nothing from the window, which draws by OpenGL itself.
+if "$SRP" force "$ROOT/models/cube.obj" --az 0 --el 0 --method raycast --device gl:osmesa > "$scratch/log" 2>&1; then
+    {
+        printf 'wait\ntab graphics\n'
+        for width in 1248 1100 1200; do
+            printf '%s\n' 'method raycast' 'device gl:osmesa' wait 'expect device gl:osmesa' 'method exact' "resize $width 800" \
+                "screenshot $scratch/x.png" 'tab spacecraft' wait "screenshot $scratch/x.png" 'print trouble' 'tab graphics'
+        done
+    } > "$scratch/steps"
+    view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+    [ -z "$(values trouble | tr -d '\n')" ] || fail "no picture after a method of OpenGL: $(value trouble)"
+else
+    echo "skipped: no OSMesa: $(tail -1 "$scratch/log")"
+fi
+
 # Without OpenGL, or with an old one, there is no picture, and all the rest: our words stand alone, and are not
 # one word wide.
 cat > "$scratch/steps" << END
