@@ -351,7 +351,9 @@ static void table_run(viewer_job *base) {
 static void table_deliver(viewer_job *base) {
     table_job *job = (table_job *)base;
     viewer *v = job->v;
-    if (job->status == SRP_CANCELLED) {
+    if (job->status == SRP_CANCELLED && viewer_worker_is_busy(v->requests.batch, SLOT_TABLE)) {
+        /* A newer one is computed. */
+    } else if (job->status == SRP_CANCELLED) {
         viewer_say(v, "The table was cancelled.");
     } else if (job->status != SRP_OK) {
         viewer_complain_about(v, ABOUT_TABLE, job->error.message);

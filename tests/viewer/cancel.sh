@@ -63,8 +63,20 @@ cancel
 expect progress Cancelling …
 wait
 expect message The table was cancelled.
+parameter grid=32
+parameter diffuse=1
+az-step 0.5
+el-step 0.5
+wait
+compute-table
+pause 1
+compute-table
+pause 2
+expect progress directions
+print message
 END
 view 0 --actions "$scratch/steps" "$ROOT/models/dish.obj"
+[ -z "$(value message)" ] || fail "of a table that a newer one replaces: $(value message)"
 
 # Or a minute: the program ends without it, all is remembered, and its status is as ever.
 cat > "$scratch/steps" << END
