@@ -194,7 +194,7 @@ static GtkWidget *make_area(viewer_charts *c, const char *name, int k) {
     return area;
 }
 
-viewer_charts *viewer_charts_create(viewer *v, const char *name) {
+viewer_charts *viewer_charts_create(viewer *v, const char *name, GtkWidget *beside) {
     viewer_charts *c = g_new0(viewer_charts, 1);
     GtkWidget *grid = gtk_grid_new();
     gtk_grid_set_column_homogeneous(GTK_GRID(grid), TRUE);
@@ -206,8 +206,15 @@ viewer_charts *viewer_charts_create(viewer *v, const char *name) {
         c->area[k] = make_area(c, name, k);
         gtk_grid_attach(GTK_GRID(grid), c->area[k], k % 2, k / 2, 1, 1);
     }
-    c->pointer = ui_label("", "value below");
+    c->pointer = ui_label("", "value");
     gtk_widget_set_name(c->pointer, full);
+    gtk_widget_set_hexpand(c->pointer, TRUE);
+    GtkWidget *line = ui_box(GTK_ORIENTATION_HORIZONTAL, 12);
+    gtk_widget_add_css_class(line, "below");
+    gtk_box_append(GTK_BOX(line), c->pointer);
+    if (beside != NULL) {
+        gtk_box_append(GTK_BOX(line), beside);
+    }
     c->empty = ui_label("Nothing to show yet: compute a table, or open one.", "dim");
     gtk_widget_set_halign(c->empty, GTK_ALIGN_CENTER);
     gtk_widget_set_valign(c->empty, GTK_ALIGN_CENTER);
@@ -215,7 +222,7 @@ viewer_charts *viewer_charts_create(viewer *v, const char *name) {
     gtk_overlay_set_child(GTK_OVERLAY(overlay), grid);
     gtk_overlay_add_overlay(GTK_OVERLAY(overlay), c->empty);
     gtk_box_append(GTK_BOX(c->widget), overlay);
-    gtk_box_append(GTK_BOX(c->widget), c->pointer);
+    gtk_box_append(GTK_BOX(c->widget), line);
     g_object_set_data_full(G_OBJECT(c->widget), "charts", c, free_charts);
     viewer_listen(v, on_changed, c);
     g_free(full);

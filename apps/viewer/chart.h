@@ -13,8 +13,8 @@ enum { CHARTS = VIEWER_CHARTS };
 typedef struct viewer_charts viewer_charts;
 
 /* `name` is that of the widgets: NAME-0 to NAME-3, and NAME-pointer for the value under the
- * pointer. */
-viewer_charts *viewer_charts_create(viewer *v, const char *name);
+ * pointer, in a line with `beside` (NULL: nothing). */
+viewer_charts *viewer_charts_create(viewer *v, const char *name, GtkWidget *beside);
 /* The widget, which owns the charts. */
 GtkWidget *viewer_charts_widget(viewer_charts *charts);
 

@@ -416,7 +416,7 @@ GtkWidget *viewer_compare_tab(viewer *v) {
     p->v = v;
     GtkWidget *box = p->box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
     GtkWidget *below = ui_box(GTK_ORIENTATION_HORIZONTAL, 0);
-    p->charts = viewer_charts_create(v, "difference");
+    p->charts = viewer_charts_create(v, "difference", NULL);
     g_object_set_data(G_OBJECT(v->window), "comparison", p);
     gtk_box_append(GTK_BOX(below), viewer_charts_widget(p->charts));
     gtk_box_append(GTK_BOX(below), make_side(p));

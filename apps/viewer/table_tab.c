@@ -154,8 +154,6 @@ static GtkWidget *make_strip(pane *p) {
                            "This table is of other optics than Materials has now: make one of "
                            "those from it, without tracing light again");
     gtk_widget_set_name(p->reoptic, "reoptic");
-    p->together = ui_check("Turn toget_her");
-    g_signal_connect(p->together, "toggled", G_CALLBACK(on_together), p);
     gtk_box_append(strip, ui_pair(ui_mnemonic("Step a_z [°]", p->az_step), p->az_step));
     gtk_box_append(strip, ui_pair(ui_mnemonic("e_l [°]", p->el_step), p->el_step));
     gtk_box_append(strip, p->start);
@@ -167,7 +165,6 @@ static GtkWidget *make_strip(pane *p) {
     gtk_box_append(strip,
                    ui_button("Sav_e…", "choose-save",
                              "Save the table (.nc, .spo, .txt) or the figure (.png, .svg, .pdf)"));
-    gtk_box_append(strip, p->together);
     gtk_widget_add_css_class(box, "strip");
     gtk_widget_add_css_class(box, "pane");
     return box;
@@ -207,7 +204,9 @@ GtkWidget *viewer_table_tab(viewer *v) {
     pane *p = g_new0(pane, 1);
     p->v = v;
     GtkWidget *box = ui_box(GTK_ORIENTATION_VERTICAL, 0);
-    p->charts = viewer_charts_create(v, "chart");
+    p->together = ui_check("Turn toget_her");
+    g_signal_connect(p->together, "toggled", G_CALLBACK(on_together), p);
+    p->charts = viewer_charts_create(v, "chart", p->together);
     g_object_set_data(G_OBJECT(v->window), "table-charts", p->charts);
     gtk_box_append(GTK_BOX(box), make_strip(p));
     gtk_box_append(GTK_BOX(box), viewer_charts_widget(p->charts));
