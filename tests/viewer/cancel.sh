@@ -47,7 +47,7 @@ expect message 1 plate fitted
 fit 64
 pause 0.5
 END
-in_seconds 60 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+in_seconds 100 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
 value fit-progress | grep -q '^Fitting … [1-9][0-9]* s$' || fail "progress is '$(value fit-progress)'"
 
 # One direction, which cannot be interrupted, takes seconds: it is said that its end is waited for.
@@ -78,18 +78,18 @@ END
 view 0 --actions "$scratch/steps" "$ROOT/models/dish.obj"
 [ -z "$(value message)" ] || fail "of a table that a newer one replaces: $(value message)"
 
-# Or a minute: the program ends without it, all is remembered, and its status is as ever.
+# Or minutes: the program ends without it, all is remembered, and its status is as ever.
 cat > "$scratch/steps" << END
 method raytrace
 wait
 parameter diffuse=8
-parameter grid=4096
+parameter grid=8192
 note closed
 pause 1
 END
-in_seconds 20 0 --remember --actions "$scratch/steps" "$ROOT/models/dish.obj"
+in_seconds 100 0 --remember --actions "$scratch/steps" "$ROOT/models/dish.obj"
 grep -q '^closed$' "$scratch/out" || fail 'what was printed is lost'
-grep -rq 'grid=4096\|grid.*4096' "$XDG_CONFIG_HOME/srpcore" || fail 'the state was not saved'
+grep -rq 'grid=8192\|grid.*8192' "$XDG_CONFIG_HOME/srpcore" || fail 'the state was not saved'
 echo 'no-such-step' >> "$scratch/steps"
-in_seconds 20 1 --actions "$scratch/steps" "$ROOT/models/dish.obj"
+in_seconds 100 1 --actions "$scratch/steps" "$ROOT/models/dish.obj"
 judge
