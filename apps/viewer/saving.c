@@ -6,6 +6,7 @@
 #include "fit.h"
 #include "orbit.h"
 #include "outputs.h"
+#include "restate.h"
 #include "screenshot.h"
 #include "ui.h"
 #include "utf8.h"
@@ -22,14 +23,13 @@ static bool save_picture(viewer *v, const char *path, viewer_words *problem) {
 /* ---- graphics ---- */
 
 static bool set_mass(srp_table *table, double mass, viewer_words *problem) {
-    const srp_table_info *info = srp_table_get_info(table);
-    srp_error error;
-    bool good = srp_table_describe(table, info->title, info->command_line, info->light, mass,
-                                   &error) == SRP_OK;
-    if (!good) {
-        viewer_words_add_error(problem, &error);
-    }
-    return good;
+    cli_restate_options statement = cli_restate_options_default();
+    statement.given = (cli_given)1 << RESTATE_MASS;
+    statement.mass = mass;
+    viewer_words_listen(problem);
+    int status = cli_restate(&statement, NULL, table);
+    viewer_words_listen(NULL);
+    return status == CLI_DONE;
 }
 
 /* With the words of the program's own writers. */
