@@ -82,7 +82,7 @@ static void set_mass(viewer *v, GVariant *parameter) {
     viewer_words problem = {""};
     bool good =
         viewer_setup_set_mass(v->session->setup, g_variant_get_string(parameter, NULL), &problem);
-    good ? viewer_complain_no_more(v) : viewer_complain(v, problem.text);
+    viewer_complain(v, good ? "" : problem.text);
     viewer_tell(v, CHANGED_SETUP | CHANGED_FORCE);
 }
 
@@ -198,7 +198,7 @@ static void set_sun(viewer *v, GVariant *parameter) {
         g_free(line);
         return;
     }
-    viewer_complain_no_more(v);
+    viewer_complain(v, "");
     v->session->attitude = viewer_attitude_for_sun(at[0], at[1]);
     sun_moved(v);
 }
@@ -305,7 +305,7 @@ static void set_step(viewer *v, double *step, GVariant *parameter) {
         return;
     }
     *step = degrees;
-    viewer_complain_no_more(v);
+    viewer_complain(v, "");
     viewer_tell(v, CHANGED_SETUP);
 }
 

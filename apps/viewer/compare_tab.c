@@ -359,7 +359,7 @@ static void on_fit(GtkButton *button, gpointer user) {
 static void on_plates(GtkWidget *plates, void *user) {
     viewer *v = ((pane *)user)->v;
     v->plates_to_fit = (int)ui_number_value(plates);
-    viewer_complain_no_more(v);
+    viewer_complain(v, "");
     ui_number_show(plates, v->plates_to_fit);
 }
 

@@ -67,10 +67,6 @@ void viewer_complain(viewer *v, const char *text) {
     viewer_complain_about(v, ABOUT_STEP, text);
 }
 
-void viewer_complain_no_more(viewer *v) {
-    viewer_complain(v, "");
-}
-
 void viewer_complain_of_model(viewer *v, const char *text) {
     viewer_complain_about(v, ABOUT_MODEL, text);
 }

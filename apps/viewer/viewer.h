@@ -104,9 +104,8 @@ void viewer_dismiss(viewer *v);
 /* What went wrong, until the next complaint; "" takes back one about the same topic, and no other.
  * Options of the command line are named as the window names them. */
 void viewer_complain_about(viewer *v, viewer_topic topic, const char *text);
-/* The same about a step, and after one that was taken. */
+/* The same about a step. */
 void viewer_complain(viewer *v, const char *text);
-void viewer_complain_no_more(viewer *v);
 /* The same for what is wrong with spacecraft or method: stands until the next engine. */
 void viewer_complain_of_model(viewer *v, const char *text);
 
