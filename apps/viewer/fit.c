@@ -2,6 +2,7 @@
 #include "fit.h"
 
 #include "facing.h"
+#include "messages.h"
 #include "plate_output.h"
 #include "table_fit.h"
 #include "text_file.h"
@@ -149,9 +150,8 @@ static void fit_deliver(viewer_job *base) {
                                       : viewer_complain_about(v, ABOUT_TABLE, job->problem.text);
     } else {
         char name[256];
-        snprintf(name, sizeof name, "%zu: %zu plate%s fitted to %.150s",
-                 v->session->table_count + 1, job->fit.count, job->fit.count == 1 ? "" : "s",
-                 job->from->name);
+        snprintf(name, sizeof name, "%zu: %zu %s fitted to %.150s", v->session->table_count + 1,
+                 job->fit.count, cli_form(job->fit.count, "plate", "plates"), job->from->name);
         keep_plates(job);
         viewer_table table = {job->table, viewer_text_copy(name), NULL, NULL, 0};
         job->table = NULL;

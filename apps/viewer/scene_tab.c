@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Visualize spacecraft: the picture, the attitude below it, the numbers beside it. */
+#include "messages.h"
 #include "numbers.h"
 #include "scene_area.h"
 #include "ui.h"
@@ -141,7 +142,8 @@ static void show_force(pane *p) {
 static void show_arrows(pane *p) {
     const viewer_session *s = p->v->session;
     char text[64];
-    snprintf(text, sizeof text, "%zu %s", s->arrow_count, s->arrow_count == 1 ? "arrow" : "arrows");
+    snprintf(text, sizeof text, "%zu %s", s->arrow_count,
+             cli_form(s->arrow_count, "arrow", "arrows"));
     gtk_label_set_text(GTK_LABEL(p->arrows), text);
     gtk_button_set_label(GTK_BUTTON(p->record), s->recording ? "_Stop" : "_Start");
     s->recording ? gtk_widget_add_css_class(p->record, "recording")

@@ -31,9 +31,9 @@ static void show_report(pane *p, const viewer_shape *shape) {
                                              : "");
     }
     gtk_label_set_text(GTK_LABEL(p->report_words), words->str);
-    char *label = count == 0
-                      ? g_strdup("Mesh is fine")
-                      : g_strdup_printf("%zu %s on the mesh", count, count == 1 ? "note" : "notes");
+    char *label =
+        count == 0 ? g_strdup("Mesh is fine")
+                   : g_strdup_printf("%zu %s on the mesh", count, cli_form(count, "note", "notes"));
     gtk_menu_button_set_label(GTK_MENU_BUTTON(p->report), label);
     gtk_widget_set_visible(p->report, shape != NULL);
     g_free(label);
@@ -50,8 +50,8 @@ static void show_facts(pane *p, const viewer_shape *shape) {
     char *text = g_strdup_printf(
         "%zu %s · %zu %s · %zu %s · %.3g × %.3g × %.3g m · %.4g m² of surface", r->triangles,
         cli_form(r->triangles, "triangle", "triangles"), r->components,
-        r->components == 1 ? "part" : "parts", shape->info.material_count,
-        shape->info.material_count == 1 ? "material" : "materials", size.x, size.y, size.z,
+        cli_form(r->components, "part", "parts"), shape->info.material_count,
+        cli_form(shape->info.material_count, "material", "materials"), size.x, size.y, size.z,
         r->area);
     gtk_label_set_text(GTK_LABEL(p->facts), text);
     g_free(text);
