@@ -451,8 +451,15 @@ static gboolean tick(gpointer user) {
     return G_SOURCE_REMOVE;
 }
 
+/* So that a picture shows what was done, not how long ago. */
+static void hold_still(viewer *v) {
+    g_object_set(gtk_widget_get_settings(GTK_WIDGET(v->window)), "gtk-enable-animations", FALSE,
+                 "gtk-cursor-blink", FALSE, NULL);
+}
+
 void viewer_script_run(viewer *v, const char *name, char *text) {
     script *s = g_new0(script, 1);
+    hold_still(v);
     s->v = v;
     s->name = g_strdup(name);
     s->ticked_at = NAN;

@@ -19,9 +19,9 @@
  *     note TEXT                on standard output
  *     # ...                    nothing
  *
- * It begins when the model is shown. A complaint of the window that no `expect message` has seen
- * when the next one comes, or at the end, makes the status 1, too, but does not end the script. At
- * its end the window is closed.
+ * It begins when the model is shown. Nothing fades or blinks meanwhile: pictures are the same each
+ * time. A complaint of the window that no `expect message` has seen when the next one comes, or at
+ * the end, makes the status 1, too, but does not end the script. At its end the window is closed.
  */
 #ifndef SRP_VIEWER_SCRIPT_H
 #define SRP_VIEWER_SCRIPT_H

@@ -128,7 +128,7 @@ wait
 screenshot $SHOTS/elsewhere-again.png
 END
 view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
-cmp -s "$SHOTS/elsewhere.png" "$SHOTS/elsewhere-again.png" || fail 'the picture is another one after the keyboard was in it'
+cmp -s "$SHOTS/elsewhere.png" "$SHOTS/elsewhere-again.png" || fail 'the window is another one after the keyboard was in the picture'
 "$CHECK" "$SHOTS/elsewhere.png" 1280 800 200 195 600 40 3 1 || fail 'no picture'
 if "$CHECK" "$SHOTS/elsewhere.png" 1280 800 200 195 600 40 4 1; then fail 'a frame without the keyboard'; fi
 "$CHECK" "$SHOTS/focus.png" 1280 800 200 195 600 40 4 1 || fail 'no frame where the keyboard is'
