@@ -2,9 +2,11 @@
 #include "state.h"
 
 #include "recent.h"
+#include "system.h"
 
 #include <errno.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char WINDOW[] = "window", METHOD[] = "method", LIGHT[] = "spacecraft",
@@ -79,13 +81,16 @@ void viewer_state_load(viewer *v) {
 
 static void write_file(GKeyFile *file, const char *name) {
     GError *error = NULL;
+    bool special;
     char *directory = g_path_get_dirname(name);
+    char *target = cli_system_write_target(name, &special); /* a link stays one */
     if (g_mkdir_with_parents(directory, 0700) != 0) {
         g_printerr("srp-viewer: nothing is remembered: %s: %s\n", directory, g_strerror(errno));
-    } else if (!g_key_file_save_to_file(file, name, &error)) {
+    } else if (!g_key_file_save_to_file(file, target != NULL ? target : name, &error)) {
         g_printerr("srp-viewer: nothing is remembered: %s\n", error->message);
         g_error_free(error);
     }
+    free(target);
     g_free(directory);
 }
 

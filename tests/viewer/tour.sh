@@ -226,7 +226,7 @@ printf '%s\n' wait "open $scratch/broken.obj" wait 'expect message broken.obj:1'
 view 0 --remember --actions "$scratch/steps"
 ! grep -q 'broken.obj' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'what cannot be opened is remembered'
 # Two windows at once: what either opened is remembered.
-printf '%s\n' wait 'pause 4' > "$scratch/slow"
+printf '%s\n' wait 'pause 8' > "$scratch/slow"
 run_viewer --remember --actions "$scratch/slow" "$ROOT/models/dish.obj" > "$scratch/log" 2>&1 &
 slow=$!
 echo wait > "$scratch/steps"
@@ -248,6 +248,12 @@ XDG_CONFIG_HOME=$scratch/config/none view 0 --remember --actions "$scratch/steps
 (cd "$scratch" && XDG_CONFIG_HOME=relative view 0 --remember --actions steps && exit "$failures") || fail 'a relative XDG_CONFIG_HOME'
 [ ! -e "$scratch/relative/srpcore" ] || fail 'a relative XDG_CONFIG_HOME is taken'
 [ -s "$HOME/.config/srpcore/viewer.ini" ] || fail 'without XDG_CONFIG_HOME ~/.config is not taken'
+mkdir -p "$scratch/config/link/srpcore"
+: > "$scratch/kept.ini"
+ln -s "$scratch/kept.ini" "$scratch/config/link/srpcore/viewer.ini"
+XDG_CONFIG_HOME=$scratch/config/link view 0 --remember --actions "$scratch/steps"
+[ -L "$scratch/config/link/srpcore/viewer.ini" ] || fail 'a link is replaced'
+grep -q '^tab=' "$scratch/kept.ini" || fail 'nothing is kept where the link leads'
 printf 'not a key file\n\0\n' > "$XDG_CONFIG_HOME/srpcore/viewer.ini"
 printf 'wait\nexpect method exact\n' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps" "$ROOT/models/cube.obj"
