@@ -44,6 +44,7 @@ typedef struct viewer_requests {
     viewer_worker *tables;  /* what is done with tables, and models and missions that are read:
                                takes seconds at most */
     viewer_worker *shadows; /* the picture's */
+    guint settle;           /* before the next frame, for the force; 0: not */
     viewer_progress table;
     viewer_probe probe;
     GQueue to_open;                  /* paths of tables, each freed by free() */

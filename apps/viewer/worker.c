@@ -12,7 +12,7 @@ struct viewer_worker {
     GMainContext *context;
     pthread_mutex_t lock; /* not GLib's, which ThreadSanitizer does not know */
     pthread_cond_t bell;  /* there is work, or none any more */
-    pthread_cond_t gone;  /* the thread has left */
+    pthread_cond_t told;  /* a job is done, or the thread has left */
     viewer_job *waiting[VIEWER_SLOTS];
     viewer_job *running;
     GQueue done; /* jobs to deliver, oldest first */
@@ -59,6 +59,7 @@ static gboolean deliver(gpointer user) {
 /* With the lock held. */
 static void hand_over(viewer_worker *worker, viewer_job *job) {
     g_queue_push_tail(&worker->done, job);
+    pthread_cond_signal(&worker->told);
     if (worker->delivery == NULL && !worker->ending) {
         GSource *source = g_idle_source_new();
         g_source_set_priority(source, G_PRIORITY_DEFAULT);
@@ -86,7 +87,7 @@ static gpointer work(gpointer user) {
         hand_over(worker, job);
     }
     worker->left = true;
-    pthread_cond_signal(&worker->gone);
+    pthread_cond_signal(&worker->told);
     pthread_mutex_unlock(&worker->lock);
     return NULL;
 }
@@ -99,7 +100,7 @@ viewer_worker *viewer_worker_create(const char *name, GMainContext *context) {
     pthread_condattr_t clock;
     pthread_condattr_init(&clock);
     pthread_condattr_setclock(&clock, CLOCK_MONOTONIC);
-    pthread_cond_init(&worker->gone, &clock);
+    pthread_cond_init(&worker->told, &clock);
     pthread_condattr_destroy(&clock);
     g_queue_init(&worker->done);
     worker->thread = g_thread_new(name, work, worker);
@@ -120,21 +121,45 @@ void viewer_worker_end(viewer_worker *worker) {
     pthread_mutex_unlock(&worker->lock);
 }
 
-bool viewer_worker_wait(viewer_worker *worker, double seconds) {
+/* On the clock of `told`. */
+static struct timespec seconds_from_now(double seconds) {
     struct timespec until;
     clock_gettime(CLOCK_MONOTONIC, &until);
     double whole = floor(seconds), nanoseconds = (double)until.tv_nsec + 1e9 * (seconds - whole);
     bool more = nanoseconds >= 1e9;
     until.tv_sec += (time_t)whole + more;
     until.tv_nsec = (long)(nanoseconds - (more ? 1e9 : 0.0));
+    return until;
+}
+
+bool viewer_worker_wait(viewer_worker *worker, double seconds) {
+    const struct timespec until = seconds_from_now(seconds);
     int status = 0;
     pthread_mutex_lock(&worker->lock);
     while (!worker->left && status != ETIMEDOUT) {
-        status = pthread_cond_timedwait(&worker->gone, &worker->lock, &until);
+        status = pthread_cond_timedwait(&worker->told, &worker->lock, &until);
     }
     bool left = worker->left;
     pthread_mutex_unlock(&worker->lock);
     return left;
+}
+
+void viewer_worker_settle(viewer_worker *worker, unsigned slot, double seconds) {
+    const struct timespec until = seconds_from_now(seconds);
+    int status = 0;
+    pthread_mutex_lock(&worker->lock);
+    while (status != ETIMEDOUT && (worker->waiting[slot] != NULL ||
+                                   (worker->running != NULL && worker->running->slot == slot))) {
+        status = pthread_cond_timedwait(&worker->told, &worker->lock, &until);
+    }
+    GSource *delivery = worker->delivery;
+    pthread_mutex_unlock(&worker->lock);
+    if (delivery != NULL) {
+        g_source_ref(delivery);
+        deliver(worker);
+        g_source_destroy(delivery);
+        g_source_unref(delivery);
+    }
 }
 
 void viewer_worker_destroy(viewer_worker *worker) {
@@ -150,7 +175,7 @@ void viewer_worker_destroy(viewer_worker *worker) {
         job->release(job);
     }
     pthread_cond_destroy(&worker->bell);
-    pthread_cond_destroy(&worker->gone);
+    pthread_cond_destroy(&worker->told);
     pthread_mutex_destroy(&worker->lock);
     g_free(worker);
 }

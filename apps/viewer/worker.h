@@ -41,6 +41,9 @@ void viewer_worker_submit(viewer_worker *worker, unsigned slot, viewer_job *job)
 /* Drops the job that waits in the slot, and asks the one that runs to end; that one is delivered.
  */
 void viewer_worker_cancel(viewer_worker *worker, unsigned slot);
+/* Waits until the jobs of this slot are done, but so many seconds at most, and delivers all that
+ * are done. Not for deliver() to call. */
+void viewer_worker_settle(viewer_worker *worker, unsigned slot, double seconds);
 /* Does a job of this slot wait, run, or wait to be delivered? */
 bool viewer_worker_is_busy(const viewer_worker *worker, unsigned slot);
 /* Is what is busy there but a job that was cancelled and has not ended yet? */

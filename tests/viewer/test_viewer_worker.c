@@ -177,6 +177,41 @@ START_TEST(an_end_need_not_be_waited_for) {
 }
 END_TEST
 
+/* What is waited for is delivered without the main loop, each job once; no longer than asked for.
+ */
+START_TEST(settled_jobs_are_delivered_at_once) {
+    GMainContext *context = g_main_context_new();
+    viewer_worker *worker = viewer_worker_create("test", context);
+    counts c = {0};
+    atomic_bool go = false;
+    viewer_worker_settle(worker, 1, 60.0); /* nothing is there */
+    viewer_worker_submit(worker, 1, make(&c, 1, false, NULL));
+    viewer_worker_settle(worker, 1, 60.0);
+    ck_assert_int_eq(c.delivered, 1);
+    ck_assert(!viewer_worker_is_busy(worker, 1));
+    viewer_worker_submit(worker, 2, make_stubborn(&c, &go));
+    wait_until_runs(&c, 2);
+    gint64 began = g_get_monotonic_time();
+    viewer_worker_settle(worker, 2, 0.2);
+    double seconds = 1e-6 * (double)(g_get_monotonic_time() - began);
+    ck_assert_msg(seconds > 0.19 && seconds < 10.0, "waits for %g s", seconds);
+    ck_assert_int_eq(c.delivered, 1);
+    ck_assert(viewer_worker_is_busy(worker, 2));
+    viewer_worker_submit(worker, 3, make(&c, 3, false, NULL));
+    atomic_store(&go, true);
+    viewer_worker_settle(worker, 3, 60.0);
+    ck_assert_int_eq(c.delivered, 3);
+    ck_assert_int_eq(c.last, 3);
+    ck_assert(!g_main_context_iteration(context, FALSE)); /* nothing is left to deliver */
+    viewer_worker_submit(worker, 1, make(&c, 4, false, NULL));
+    wait_until_idle(worker, context);
+    ck_assert_int_eq(c.delivered, 4);
+    ck_assert_int_eq(c.released, 4);
+    viewer_worker_destroy(worker);
+    g_main_context_unref(context);
+}
+END_TEST
+
 START_TEST(low_slots_come_first) {
     GMainContext *context = g_main_context_new();
     viewer_worker *worker = viewer_worker_create("test", context);
@@ -228,6 +263,7 @@ int main(void) {
     tcase_add_test(cases, cancelled_job_ends_and_is_delivered);
     tcase_add_test(cases, cancelling_is_seen);
     tcase_add_test(cases, an_end_need_not_be_waited_for);
+    tcase_add_test(cases, settled_jobs_are_delivered_at_once);
     tcase_add_test(cases, low_slots_come_first);
     tcase_add_test(cases, end_at_any_time);
     suite_add_tcase(suite, cases);
