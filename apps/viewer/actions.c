@@ -367,15 +367,16 @@ static void compare_a(viewer *v, GVariant *parameter) {
 
 /* The number of plates. */
 static void fit(viewer *v, GVariant *parameter) {
-    int plates = g_variant_get_int32(parameter);
-    if (plates < 1 || plates > CLI_NORMALS_MAX) {
-        char said[100];
-        snprintf(said, sizeof said, "%d plates: expected a whole number from 1 to %d", plates,
-                 CLI_NORMALS_MAX);
+    const char *text = g_variant_get_string(parameter, NULL);
+    uint64_t plates;
+    if (!cli_read_count(text, CLI_NORMALS_MAX, &plates) || plates < 1) {
+        char *said = g_strdup_printf("Plates to fit %s: expected a whole number from 1 to %d", text,
+                                     CLI_NORMALS_MAX);
         viewer_complain(v, said);
+        g_free(said);
         return;
     }
-    v->plates_to_fit = plates;
+    v->plates_to_fit = (int)plates;
     viewer_tell(v, CHANGED_SETUP);
     viewer_fit_request(v, (unsigned)v->plates_to_fit);
 }
@@ -532,7 +533,7 @@ static const viewer_action ACTIONS[] = {
      set_chart_view, LOOKS},
     {"compare-a", "i", NULL, "The table that is compared with.", compare_a, DOES},
     {"compare-b", "i", NULL, "The table that is compared.", compare_b, DOES},
-    {"fit", "i", NULL, "Fit so many plates (1 to 64) to table A; what they give becomes B.", fit,
+    {"fit", "s", NULL, "Fit so many plates (1 to 64) to table A; what they give becomes B.", fit,
      DOES},
 #ifdef SRP_CLI_HAS_ORBIT
     {"mission", "s", NULL, "Open a mission file.", open_mission, DOES},

@@ -353,7 +353,7 @@ static GtkWidget *make_side(pane *p) {
 static void on_fit(GtkButton *button, gpointer user) {
     pane *p = user;
     (void)button;
-    viewer_act(p->v, "fit", g_variant_new_int32((gint32)p->v->plates_to_fit));
+    viewer_act(p->v, "fit", g_variant_new_take_string(g_strdup_printf("%d", p->v->plates_to_fit)));
 }
 
 static void on_plates(GtkWidget *plates, void *user) {

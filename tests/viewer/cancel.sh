@@ -21,13 +21,17 @@ tab compare
 open-table $scratch/fine.nc
 wait
 fit 0
-expect message 0 plates: expected a whole number from 1 to 64
+expect message Plates to fit 0: expected a whole number from 1 to 64
 fit -1
-expect message -1 plates: expected a whole number from 1 to 64
+expect message Plates to fit -1: expected a whole number from 1 to 64
 fit 65
-expect message 65 plates: expected a whole number from 1 to 64
+expect message Plates to fit 65: expected a whole number from 1 to 64
 fit 4294967297
-expect message plates: expected a whole number from 1 to 64
+expect message Plates to fit 4294967297: expected a whole number from 1 to 64
+fit 1.5
+expect message Plates to fit 1.5: expected a whole number from 1 to 64
+fit abc
+expect message Plates to fit abc: expected a whole number from 1 to 64
 expect plates-count 8
 fit 64
 expect plates-count 64
