@@ -326,6 +326,7 @@ static void cancel(viewer *v, GVariant *parameter) {
     (void)parameter;
     viewer_cancel_table(v);
     viewer_fit_cancel(v);
+    viewer_reoptic_cancel(v);
     viewer_opening_cancel(v);
     viewer_loading_cancel(v);
 #ifdef SRP_CLI_HAS_ORBIT
@@ -353,8 +354,11 @@ static void reoptic(viewer *v, GVariant *parameter) {
     viewer_reoptic_request(v);
 }
 
+/* What is being made of them goes with them; a table that is computed does not. */
 static void clear_tables(viewer *v, GVariant *parameter) {
     (void)parameter;
+    viewer_fit_cancel(v);
+    viewer_reoptic_cancel(v);
     viewer_opening_cancel(v);
     v->table_shown = v->compared[0] = v->compared[1] = -1;
     viewer_session_clear_tables(v->session);
