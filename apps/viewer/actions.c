@@ -326,6 +326,7 @@ static void cancel(viewer *v, GVariant *parameter) {
     (void)parameter;
     viewer_cancel_table(v);
     viewer_fit_cancel(v);
+    viewer_reoptic_cancel(v);
     viewer_opening_cancel(v);
     viewer_loading_cancel(v);
 #ifdef SRP_CLI_HAS_ORBIT
@@ -353,8 +354,11 @@ static void reoptic(viewer *v, GVariant *parameter) {
     viewer_reoptic_request(v);
 }
 
+/* What is being made of them goes with them; a table that is computed does not. */
 static void clear_tables(viewer *v, GVariant *parameter) {
     (void)parameter;
+    viewer_fit_cancel(v);
+    viewer_reoptic_cancel(v);
     viewer_opening_cancel(v);
     v->table_shown = v->compared[0] = v->compared[1] = -1;
     viewer_session_clear_tables(v->session);
@@ -367,15 +371,16 @@ static void compare_a(viewer *v, GVariant *parameter) {
 
 /* The number of plates. */
 static void fit(viewer *v, GVariant *parameter) {
-    int plates = g_variant_get_int32(parameter);
-    if (plates < 1 || plates > CLI_NORMALS_MAX) {
-        char said[100];
-        snprintf(said, sizeof said, "%d plates: expected a whole number from 1 to %d", plates,
-                 CLI_NORMALS_MAX);
+    const char *text = g_variant_get_string(parameter, NULL);
+    uint64_t plates;
+    if (!cli_read_count(text, CLI_NORMALS_MAX, &plates) || plates < 1) {
+        char *said = g_strdup_printf("Plates to fit %s: expected a whole number from 1 to %d", text,
+                                     CLI_NORMALS_MAX);
         viewer_complain(v, said);
+        g_free(said);
         return;
     }
-    v->plates_to_fit = plates;
+    v->plates_to_fit = (int)plates;
     viewer_tell(v, CHANGED_SETUP);
     viewer_fit_request(v, (unsigned)v->plates_to_fit);
 }
@@ -532,7 +537,7 @@ static const viewer_action ACTIONS[] = {
      set_chart_view, LOOKS},
     {"compare-a", "i", NULL, "The table that is compared with.", compare_a, DOES},
     {"compare-b", "i", NULL, "The table that is compared.", compare_b, DOES},
-    {"fit", "i", NULL, "Fit so many plates (1 to 64) to table A; what they give becomes B.", fit,
+    {"fit", "s", NULL, "Fit so many plates (1 to 64) to table A; what they give becomes B.", fit,
      DOES},
 #ifdef SRP_CLI_HAS_ORBIT
     {"mission", "s", NULL, "Open a mission file.", open_mission, DOES},

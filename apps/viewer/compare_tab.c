@@ -228,6 +228,7 @@ static void refresh(pane *p) {
         }
     }
     if (now[0] == NULL || now[1] == NULL) {
+        viewer_worker_cancel(p->v->requests.tables, SLOT_COMPARISON);
         set_shown(p, NULL, NULL);
         show_nothing(p, nothing_yet(p->v));
     } else if (gtk_widget_get_mapped(p->box) && (now[0] != p->shown[0] || now[1] != p->shown[1])) {
@@ -245,8 +246,11 @@ static void on_map(GtkWidget *box, gpointer user) {
 /* ---- progress of the fit ---- */
 
 static void show_progress(pane *p) {
+    const char *waits_for = viewer_waits_for(p->v, SLOT_FIT);
     char text[64] = "Cancelling …";
-    if (!viewer_fit_is_cancelling(p->v)) {
+    if (!viewer_fit_is_cancelling(p->v) && waits_for != NULL) {
+        snprintf(text, sizeof text, "%s", waits_for);
+    } else if (!viewer_fit_is_cancelling(p->v)) {
         snprintf(text, sizeof text, "Fitting … %.0f s", floor(viewer_fit_seconds(p->v)));
     }
     gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), text);
@@ -353,7 +357,7 @@ static GtkWidget *make_side(pane *p) {
 static void on_fit(GtkButton *button, gpointer user) {
     pane *p = user;
     (void)button;
-    viewer_act(p->v, "fit", g_variant_new_int32((gint32)p->v->plates_to_fit));
+    viewer_act(p->v, "fit", g_variant_new_take_string(g_strdup_printf("%d", p->v->plates_to_fit)));
 }
 
 static void on_plates(GtkWidget *plates, void *user) {

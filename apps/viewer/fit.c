@@ -15,7 +15,7 @@ typedef struct keeper {
     srp_plate *plates;
     size_t count;
     char *about;
-    double began; /* the one that runs */
+    _Atomic double began; /* the one that runs; before that, when it was asked for */
 } keeper;
 
 typedef struct fit_job {
@@ -23,11 +23,14 @@ typedef struct fit_job {
     viewer *v;
     viewer_table *from;
     unsigned plates;
+    _Atomic double *began; /* the keeper's */
     cli_plate_fit fit;
     srp_table *table; /* what the plates give */
     viewer_words problem;
     double seconds;
 } fit_job;
+
+static const char CANCELLED[] = "The fit was cancelled.";
 
 static void free_keeper(gpointer user) {
     keeper *k = user;
@@ -99,6 +102,7 @@ static void fit_run(viewer_job *base) {
     srp_error error;
     const cli_fit_watch watch = {goes_on, job};
     double began = viewer_seconds();
+    atomic_store(job->began, began);
     if (!cli_samples_take(job->from->table, srp_table_grid(job->from->table), false, &samples)) {
         viewer_words_add(&job->problem, "no memory for the fit");
         return;
@@ -145,9 +149,13 @@ static void keep_plates(fit_job *job) {
 static void fit_deliver(viewer_job *base) {
     fit_job *job = (fit_job *)base;
     viewer *v = job->v;
-    if (job->table == NULL) {
-        atomic_load(&job->job.cancel) ? viewer_say(v, "The fit was cancelled.")
-                                      : viewer_complain_about(v, ABOUT_TABLE, job->problem.text);
+    bool cancelled = atomic_load(&job->job.cancel);
+    if (cancelled && viewer_fit_is_running(v)) {
+        /* A newer one runs. */
+    } else if (cancelled) {
+        viewer_say_too(v, CANCELLED);
+    } else if (job->table == NULL) {
+        viewer_complain_about(v, ABOUT_TABLE, job->problem.text);
     } else {
         char name[256];
         snprintf(name, sizeof name, "%zu: %zu %s fitted to %.150s", v->session->table_count + 1,
@@ -189,15 +197,15 @@ void viewer_fit_request(viewer *v, unsigned plates) {
     job->v = v;
     job->from = viewer_table_reference(v->session->tables[v->compared[0]]);
     job->plates = plates;
-    keeper_of(v)->began = viewer_seconds();
+    job->began = &keeper_of(v)->began;
+    atomic_store(job->began, viewer_seconds());
     viewer_worker_cancel(v->requests.batch, SLOT_FIT);
     viewer_worker_submit(v->requests.batch, SLOT_FIT, &job->job);
     viewer_tell(v, CHANGED_BUSY);
 }
 
 void viewer_fit_cancel(viewer *v) {
-    viewer_worker_cancel(v->requests.batch, SLOT_FIT);
-    viewer_tell(v, CHANGED_BUSY);
+    viewer_cancel(v, v->requests.batch, SLOT_FIT, CANCELLED);
 }
 
 bool viewer_fit_is_running(const viewer *v) {
@@ -209,7 +217,7 @@ bool viewer_fit_is_cancelling(const viewer *v) {
 }
 
 double viewer_fit_seconds(viewer *v) {
-    return viewer_seconds() - keeper_of(v)->began;
+    return viewer_seconds() - atomic_load(&keeper_of(v)->began);
 }
 
 bool viewer_fit_save(viewer *v, const char *path, viewer_words *problem) {

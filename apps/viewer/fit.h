@@ -12,7 +12,7 @@ void viewer_fit_request(viewer *v, unsigned plates);
 void viewer_fit_cancel(viewer *v);
 bool viewer_fit_is_running(const viewer *v);
 bool viewer_fit_is_cancelling(const viewer *v);
-/* Since it was asked for. */
+/* Since it began, or was asked for. */
 double viewer_fit_seconds(viewer *v);
 /* Saves the plates of the last fit, for the method nplate. */
 bool viewer_fit_save(viewer *v, const char *path, viewer_words *problem);

@@ -77,6 +77,11 @@ bool viewer_orbit_is_cancelling(const viewer *v) {
            viewer_worker_is_cancelling(v->requests.tables, SLOT_VERSUS);
 }
 
+const char *viewer_orbit_waits_for(const viewer *v) {
+    return viewer_worker_is_busy(v->requests.batch, SLOT_ORBIT) ? viewer_waits_for(v, SLOT_ORBIT)
+                                                                : NULL;
+}
+
 /* ---- the choice ---- */
 
 typedef struct read_job {
@@ -254,6 +259,8 @@ static void sum_up(viewer_orbit *made, const srp_mission_summary *s) {
              s->penumbras, s->in_penumbra, s->umbras, s->in_umbra);
 }
 
+static const char CANCELLED[] = "The mission was cancelled.";
+
 static void orbit_run(viewer_job *base) {
     orbit_job *job = (orbit_job *)base;
     srp_mission *mission[2] = {NULL, NULL};
@@ -295,7 +302,7 @@ static void orbit_deliver(viewer_job *base) {
     if (viewer_worker_is_busy(v->requests.batch, SLOT_ORBIT)) {
         /* A newer one runs. */
     } else if (job->cancelled || job->choice != keeper_of(v)->choice) {
-        viewer_say(v, "The mission was cancelled.");
+        viewer_say_too(v, CANCELLED);
     } else if (!job->good) {
         free_rows(orbit);
         viewer_complain_about(v, ABOUT_MISSION, job->problem.text);
@@ -349,12 +356,12 @@ void viewer_orbit_run(viewer *v) {
 
 void viewer_orbit_cancel(viewer *v) {
     if (is_reading(v)) {
-        viewer_say(v, "The mission that was being read is not taken.");
+        viewer_say_too(v, "The mission that was being read is not taken.");
     }
     keeper_of(v)->run_waits = false;
     viewer_worker_cancel(v->requests.tables, SLOT_MISSION);
     viewer_worker_cancel(v->requests.tables, SLOT_VERSUS);
-    viewer_worker_cancel(v->requests.batch, SLOT_ORBIT);
+    viewer_cancel(v, v->requests.batch, SLOT_ORBIT, CANCELLED);
     viewer_tell(v, CHANGED_ORBIT | CHANGED_BUSY);
 }
 

@@ -16,6 +16,8 @@ typedef struct reoptic_job {
     srp_error error;
 } reoptic_job;
 
+static const char CANCELLED[] = "The re-optic was cancelled.";
+
 /* `srp reoptic ...` with the optics of the whole mesh. */
 static char *command_of(const viewer_engine *engine) {
     viewer_setup *said = viewer_setup_create();
@@ -66,6 +68,10 @@ static void reoptic_deliver(viewer_job *base) {
     reoptic_job *job = (reoptic_job *)base;
     viewer *v = job->v;
     viewer_tell(v, CHANGED_BUSY);
+    if (atomic_load(&job->job.cancel)) {
+        viewer_say_too(v, CANCELLED);
+        return;
+    }
     if (job->status != SRP_OK) {
         refuse(job);
         return;
@@ -119,4 +125,9 @@ void viewer_reoptic_request(viewer *v) {
     job->engine = viewer_engine_reference(v->session->engine);
     viewer_worker_submit(v->requests.tables, SLOT_REOPTIC, &job->job);
     viewer_tell(v, CHANGED_BUSY);
+}
+
+void viewer_reoptic_cancel(viewer *v) {
+    viewer_cancel_after_engine(v, viewer_reoptic_request, CANCELLED);
+    viewer_cancel(v, v->requests.tables, SLOT_REOPTIC, CANCELLED);
 }

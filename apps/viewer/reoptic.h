@@ -7,5 +7,6 @@
 /* Makes, from the table shown, one of the optics that the materials have now, as `srp reoptic`
  * does; it joins the session's tables. */
 void viewer_reoptic_request(viewer *v);
+void viewer_reoptic_cancel(viewer *v);
 
 #endif

@@ -52,6 +52,24 @@ bool viewer_requests_busy(const viewer *v) {
     return busy;
 }
 
+void viewer_cancel(viewer *v, viewer_worker *worker, unsigned slot, const char *said) {
+    bool busy = viewer_worker_is_busy(worker, slot);
+    viewer_worker_cancel(worker, slot);
+    if (busy && !viewer_worker_is_busy(worker, slot)) {
+        viewer_say_too(v, said);
+    }
+    viewer_tell(v, CHANGED_BUSY);
+}
+
+const char *viewer_waits_for(const viewer *v, unsigned slot) {
+    static const char *const words[] = {[SLOT_TABLE] = "Waiting for the table …",
+                                        [SLOT_ORBIT] = "Waiting for the mission …",
+                                        [SLOT_FIT] = "Waiting for the fit …",
+                                        [SLOT_PROBE] = "Waiting for the measurement …"};
+    int running = viewer_worker_running(v->requests.batch);
+    return running < 0 || running == (int)slot ? NULL : words[running];
+}
+
 /* ---- engine ---- */
 
 typedef struct engine_job {
@@ -117,6 +135,13 @@ bool viewer_comes_after_engine(viewer *v, void (*what)(viewer *v)) {
         viewer_worker_is_busy(v->requests.live, SLOT_ENGINE) || viewer_loading_is_running(v);
     v->requests.after_engine = busy ? what : NULL;
     return busy;
+}
+
+void viewer_cancel_after_engine(viewer *v, void (*what)(viewer *v), const char *said) {
+    if (v->requests.after_engine == what) {
+        v->requests.after_engine = NULL;
+        viewer_say_too(v, said);
+    }
 }
 
 static void engine_release(viewer_job *base) {
@@ -346,9 +371,12 @@ typedef struct table_job {
     double mass;
     char *title, *command;
     srp_table *table;
+    double seconds;
     srp_status status;
     srp_error error;
 } table_job;
+
+static const char TABLE_CANCELLED[] = "The table was cancelled.";
 
 static bool report(void *user, const srp_table *table, size_t done, size_t total) {
     table_job *job = user;
@@ -363,6 +391,8 @@ static void table_run(viewer_job *base) {
     const viewer_engine *engine = job->engine;
     const srp_table_progress progress = {report, job};
     bool basis = (engine->method->capabilities & SRP_METHOD_BASIS) != 0;
+    double began = viewer_seconds();
+    atomic_store(&job->v->requests.table.began, began);
     job->status = srp_table_create(engine->prepared, job->grid, basis, &job->table, &job->error);
     if (job->status == SRP_OK) {
         job->status = srp_table_describe(job->table, job->title, job->command, engine->setup->light,
@@ -371,6 +401,7 @@ static void table_run(viewer_job *base) {
     if (job->status == SRP_OK) {
         job->status = srp_table_fill(job->table, engine->prepared, &progress, &job->error);
     }
+    job->seconds = viewer_seconds() - began;
 }
 
 static void table_deliver(viewer_job *base) {
@@ -379,7 +410,7 @@ static void table_deliver(viewer_job *base) {
     if (job->status == SRP_CANCELLED && viewer_worker_is_busy(v->requests.batch, SLOT_TABLE)) {
         /* A newer one is computed. */
     } else if (job->status == SRP_CANCELLED) {
-        viewer_say(v, "The table was cancelled.");
+        viewer_say_too(v, TABLE_CANCELLED);
     } else if (job->status != SRP_OK) {
         viewer_complain_about(v, ABOUT_TABLE, job->error.message);
     } else {
@@ -393,8 +424,7 @@ static void table_deliver(viewer_job *base) {
             v->table_shown = (int)v->session->table_count - 1;
         }
         char said[400];
-        snprintf(said, sizeof said, "Table %s: computed in %.2f s.", name,
-                 viewer_seconds() - v->requests.table.began);
+        snprintf(said, sizeof said, "Table %s: computed in %.2f s.", name, job->seconds);
         viewer_complain_about(v, ABOUT_TABLE, "");
         viewer_say(v, said);
     }
@@ -471,16 +501,15 @@ void viewer_request_table(viewer *v) {
     job->command = command_of(v);
     atomic_store(&v->requests.table.done, 0);
     atomic_store(&v->requests.table.total, 0);
-    v->requests.table.began = viewer_seconds();
+    atomic_store(&v->requests.table.began, viewer_seconds());
     viewer_worker_cancel(v->requests.batch, SLOT_TABLE);
     viewer_worker_submit(v->requests.batch, SLOT_TABLE, &job->job);
     viewer_tell(v, CHANGED_BUSY);
 }
 
 void viewer_cancel_table(viewer *v) {
-    v->requests.after_engine = NULL;
-    viewer_worker_cancel(v->requests.batch, SLOT_TABLE);
-    viewer_tell(v, CHANGED_BUSY);
+    viewer_cancel_after_engine(v, viewer_request_table, TABLE_CANCELLED);
+    viewer_cancel(v, v->requests.batch, SLOT_TABLE, TABLE_CANCELLED);
 }
 
 bool viewer_table_is_cancelling(const viewer *v) {

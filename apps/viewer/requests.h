@@ -31,7 +31,7 @@ typedef struct viewer_probe {
 /* How far a table is, written by the thread that computes it. */
 typedef struct viewer_progress {
     atomic_size_t done, total;
-    double began; /* the main thread's */
+    _Atomic double began; /* to be computed; before that, when it was asked for */
 } viewer_progress;
 
 enum { SLOT_ENGINE, SLOT_FORCE };                      /* of `live` */
@@ -58,6 +58,11 @@ void viewer_requests_begin(viewer *v);
 bool viewer_requests_end(viewer *v);
 /* Is anything computed, or about to be shown? */
 bool viewer_requests_busy(const viewer *v);
+/* The user does not want what this slot computes. `said` of what has not begun; what has says it as
+ * it is delivered. */
+void viewer_cancel(viewer *v, viewer_worker *worker, unsigned slot, const char *said);
+/* What keeps a job of `batch` from beginning: "Waiting for the fit …"; NULL: nothing does. */
+const char *viewer_waits_for(const viewer *v, unsigned slot);
 
 /* The setup has changed: a new engine, then the force. `reload` reads files again. */
 void viewer_request_engine(viewer *v, bool reload);
@@ -68,6 +73,8 @@ void viewer_request_force(viewer *v);
 /* Does an engine of what the user has said last have to be made first? Then `what` is called when
  * it is there, unless something else is asked for meanwhile, or it is cancelled. */
 bool viewer_comes_after_engine(viewer *v, void (*what)(viewer *v));
+/* It is not wanted any more; `said` where it would have been called. */
+void viewer_cancel_after_engine(viewer *v, void (*what)(viewer *v), const char *said);
 /* Whether there is something to compute with; says why not. */
 bool viewer_check_engine(viewer *v);
 /* A table of the engine, with the steps of the viewer. */

@@ -24,10 +24,11 @@ static const char *const FIELD_NAME[CHARTS] = {"f#dx#u [m²]", "f#dy#u [m²]", "
 
 /* ---- progress ---- */
 
-static void show_progress(pane *p) {
+/* Of a table that is being computed. */
+static void show_share(pane *p) {
     size_t done = atomic_load(&p->v->requests.table.done);
     size_t total = atomic_load(&p->v->requests.table.total);
-    double seconds = viewer_seconds() - p->v->requests.table.began;
+    double seconds = viewer_seconds() - atomic_load(&p->v->requests.table.began);
     char text[128] = "preparing …";
     if (total > 0) {
         double share = (double)done / (double)total;
@@ -40,8 +41,17 @@ static void show_progress(pane *p) {
     } else {
         gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(p->progress), 0.0);
     }
-    bool cancelling = viewer_table_is_cancelling(p->v);
-    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), cancelling ? "Cancelling …" : text);
+    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), text);
+}
+
+static void show_progress(pane *p) {
+    const char *waits_for = viewer_waits_for(p->v, SLOT_TABLE);
+    show_share(p);
+    if (viewer_table_is_cancelling(p->v)) {
+        gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), "Cancelling …");
+    } else if (waits_for != NULL) {
+        gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), waits_for);
+    }
 }
 
 static gboolean on_tick(gpointer user) {

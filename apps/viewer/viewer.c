@@ -37,6 +37,14 @@ void viewer_say(viewer *v, const char *text) {
     show_message(v);
 }
 
+void viewer_say_too(viewer *v, const char *text) {
+    if (strstr(v->news, text) == NULL) {
+        g_strlcat(v->news, v->news[0] != '\0' ? "\n" : "", sizeof v->news);
+        g_strlcat(v->news, text, sizeof v->news);
+        show_message(v);
+    }
+}
+
 void viewer_forget_news(viewer *v) {
     if (v->news[0] != '\0') {
         viewer_say(v, "");

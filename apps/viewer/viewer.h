@@ -96,6 +96,8 @@ void viewer_tell(viewer *v, unsigned what);
 /* A line for the user, until the next one or the next step; "" says nothing. What went wrong stands
  * above it. */
 void viewer_say(viewer *v, const char *text);
+/* The same below what was said of the same step, once. */
+void viewer_say_too(viewer *v, const char *text);
 /* The user takes another step: what was said stands no more, but for what went wrong. */
 void viewer_forget_news(viewer *v);
 /* The user has read it all. */

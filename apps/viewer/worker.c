@@ -203,6 +203,12 @@ void viewer_worker_cancel(viewer_worker *worker, unsigned slot) {
     if (worker->running != NULL && worker->running->slot == slot) {
         atomic_store(&worker->running->cancel, true);
     }
+    for (GList *each = worker->done.head; each != NULL; each = each->next) {
+        viewer_job *job = each->data;
+        if (job->slot == slot) {
+            atomic_store(&job->cancel, true);
+        }
+    }
     pthread_mutex_unlock(&worker->lock);
     if (old != NULL) {
         --worker->open[slot];
@@ -217,4 +223,11 @@ bool viewer_worker_is_busy(const viewer_worker *worker, unsigned slot) {
 
 bool viewer_worker_is_cancelling(const viewer_worker *worker, unsigned slot) {
     return worker->cancelling[slot];
+}
+
+int viewer_worker_running(viewer_worker *worker) {
+    pthread_mutex_lock(&worker->lock);
+    int slot = worker->running != NULL ? (int)worker->running->slot : -1;
+    pthread_mutex_unlock(&worker->lock);
+    return slot;
 }

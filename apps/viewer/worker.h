@@ -38,8 +38,8 @@ void viewer_worker_destroy(viewer_worker *worker);
 
 /* Takes the job over. Slots with lower numbers come first. */
 void viewer_worker_submit(viewer_worker *worker, unsigned slot, viewer_job *job);
-/* Drops the job that waits in the slot, and asks the one that runs to end; that one is delivered.
- */
+/* Drops the job that waits in the slot, and asks the one that runs to end; that one is delivered,
+ * as is one that has ended already: its `cancel` tells it. */
 void viewer_worker_cancel(viewer_worker *worker, unsigned slot);
 /* Waits until the jobs of this slot are done, but so many seconds at most, and delivers all that
  * are done. Not for deliver() to call. */
@@ -48,5 +48,7 @@ void viewer_worker_settle(viewer_worker *worker, unsigned slot, double seconds);
 bool viewer_worker_is_busy(const viewer_worker *worker, unsigned slot);
 /* Is what is busy there but a job that was cancelled and has not ended yet? */
 bool viewer_worker_is_cancelling(const viewer_worker *worker, unsigned slot);
+/* The slot of the job that runs; -1: none does. */
+int viewer_worker_running(viewer_worker *worker);
 
 #endif

@@ -101,6 +101,26 @@ END
 view_and_feed 0
 [ -z "$(value table)" ] || fail "there is a table that was forgotten: $(value table)"
 
+# Nor does what was to be made of them.
+cat > "$scratch/steps" << END
+az-step 30
+el-step 30
+compute-table
+wait
+material bus=0.31,0.11
+wait
+open-table $scratch/slow.txt
+reoptic
+pause 0.2
+clear-tables
+expect message The re-optic was cancelled.
+note hears
+wait
+print table
+END
+view_and_feed 0
+[ -z "$(value table)" ] || fail "a table was made of one that was forgotten: $(value table)"
+
 # A spacecraft stays until another one has been read, and where that is not wanted any more.
 mkfifo "$scratch/slow.obj"
 cp "$ROOT/models/cube.mtl" "$scratch/"

@@ -7,7 +7,7 @@
 
 typedef struct counts {
     atomic_int ran, cancelled;
-    int delivered, released, last;
+    int delivered, delivered_cancelled, released, last;
 } counts;
 
 typedef struct probe {
@@ -32,6 +32,7 @@ static void run(viewer_job *base) {
 static void deliver(viewer_job *base) {
     probe *job = (probe *)base;
     ++job->to->delivered;
+    job->to->delivered_cancelled += atomic_load(&job->job.cancel);
     job->to->last = job->number;
 }
 
@@ -116,6 +117,28 @@ START_TEST(cancelled_job_ends_and_is_delivered) {
     ck_assert_int_eq(c.delivered, 1);
     ck_assert_int_eq(c.last, 7);
     ck_assert_int_eq(c.released, 2);
+    viewer_worker_destroy(worker);
+    g_main_context_unref(context);
+}
+END_TEST
+
+/* What was computed is not wanted any more before it is delivered. */
+START_TEST(what_has_ended_is_cancelled_too) {
+    GMainContext *context = g_main_context_new();
+    viewer_worker *worker = viewer_worker_create("test", context);
+    counts c = {0};
+    atomic_bool go = false;
+    viewer_worker_submit(worker, 1, make(&c, 1, false, NULL));
+    wait_until_runs(&c, 1);
+    viewer_worker_submit(worker, 2, make(&c, 2, true, &go));
+    wait_until_runs(&c, 2); /* the first one has ended */
+    ck_assert_int_eq(viewer_worker_running(worker), 2);
+    viewer_worker_cancel(worker, 1);
+    atomic_store(&go, true);
+    wait_until_idle(worker, context);
+    ck_assert_int_eq(viewer_worker_running(worker), -1);
+    ck_assert_int_eq(c.delivered, 2);
+    ck_assert_int_eq(c.delivered_cancelled, 1);
     viewer_worker_destroy(worker);
     g_main_context_unref(context);
 }
@@ -261,6 +284,7 @@ int main(void) {
     tcase_set_timeout(cases, 120);
     tcase_add_test(cases, newest_request_wins);
     tcase_add_test(cases, cancelled_job_ends_and_is_delivered);
+    tcase_add_test(cases, what_has_ended_is_cancelled_too);
     tcase_add_test(cases, cancelling_is_seen);
     tcase_add_test(cases, an_end_need_not_be_waited_for);
     tcase_add_test(cases, settled_jobs_are_delivered_at_once);
