@@ -68,8 +68,9 @@ static void set_unit(viewer *v, GVariant *parameter) {
 
 static void set_plates(viewer *v, GVariant *parameter) {
     viewer_words problem = {""};
-    bool good = viewer_setup_set_model_option(v->session->setup, MODEL_PLATES,
-                                              g_variant_get_string(parameter, NULL), &problem);
+    const char *path = g_variant_get_string(parameter, NULL);
+    bool good = (path[0] == '\0' || viewer_engine_takes_plates(path, &problem)) &&
+                viewer_setup_set_model_option(v->session->setup, MODEL_PLATES, path, &problem);
     setup_said(v, good, &problem);
 }
 

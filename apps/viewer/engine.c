@@ -173,6 +173,17 @@ static srp_status plates_scene(const char *path, srp_scene **out, srp_error *err
     return status;
 }
 
+bool viewer_engine_takes_plates(const char *path, viewer_words *problem) {
+    srp_scene *scene = NULL;
+    srp_error error;
+    if (plates_scene(path, &scene, &error) != SRP_OK) {
+        viewer_words_add_error(problem, &error);
+        return false;
+    }
+    srp_scene_destroy(scene);
+    return true;
+}
+
 /* The scene that the method takes; NULL with words where there is none. */
 static srp_scene *scene_of_method(viewer_engine *engine) {
     cli_model_options model;
@@ -224,11 +235,13 @@ viewer_engine *viewer_engine_make(const viewer_setup *setup, viewer_shape *known
     atomic_init(&engine->references, 1);
     copy->mass = NAN; /* changes without a new engine; whoever wants it asks the session */
     engine->setup = copy;
-    if (setup->model != NULL && !reload && known != NULL && same_text(known->path, setup->model) &&
-        same_text(known->unit, setup->model_option[MODEL_UNIT])) {
-        engine->shape = viewer_shape_reference(known);
-    } else if (setup->model != NULL) {
+    bool is_known = setup->model != NULL && known != NULL && same_text(known->path, setup->model) &&
+                    same_text(known->unit, setup->model_option[MODEL_UNIT]);
+    if (setup->model != NULL && (reload || !is_known)) {
         engine->shape = viewer_shape_read(setup, &engine->problem);
+    }
+    if (engine->shape == NULL && is_known) {
+        engine->shape = viewer_shape_reference(known);
     }
     srp_error error;
     viewer_words_listen(&engine->problem);
