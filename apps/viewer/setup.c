@@ -272,6 +272,12 @@ bool viewer_setup_choose(const viewer_setup *setup, const srp_method **method,
     viewer_setup_options(setup, &model, &how);
     const srp_method *chosen = viewer_setup_method(setup);
     bool mesh = chosen == NULL || (chosen->shapes & SRP_SHAPE_MESH) != 0;
+    if (chosen != NULL && mesh && setup->model == NULL) {
+        char line[100];
+        snprintf(line, sizeof line, "method %s needs an OBJ file: open one", chosen->name);
+        viewer_words_add(problem, line);
+        return false;
+    }
     viewer_words_listen(problem);
     int status =
         cli_method_choose(&model, &how, mesh && setup->model != NULL ? 1 : 0, method, params);

@@ -125,6 +125,12 @@ END
 view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 [ -z "$(value message)" ] || fail "a material that was forgotten: $(value message)"
 
+# What was said of the spacecraft is not lost under what comes of that.
+printf '%s\n' dark 'method raytrace' wait > "$scratch/steps"
+view 1 --actions "$scratch/steps" "$scratch/no-such.obj"
+grep -q 'no-such.obj: cannot open' "$scratch/err" || fail "the spacecraft is not there, and that is not said: $(cat "$scratch/err")"
+grep -q 'steps:3: method raytrace needs an OBJ file: open one' "$scratch/err" || fail "what the method needs: $(cat "$scratch/err")"
+
 # An MTL that is not there is asked for; all else goes on, and another one can be given.
 printf 'mtllib nowhere.mtl\nusemtl foil\nv 0 0 0\nv 1 0 0\nv 0 1.5 0\nf 1 2 3\n' > "$scratch/lost.obj"
 printf 'newmtl foil\nrho_s 0.25\nrho_d 0.125\nnewmtl other\nrho_s 0\nrho_d 0\n' > "$scratch/found.mtl"
