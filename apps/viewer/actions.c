@@ -68,8 +68,9 @@ static void set_unit(viewer *v, GVariant *parameter) {
 
 static void set_plates(viewer *v, GVariant *parameter) {
     viewer_words problem = {""};
-    bool good = viewer_setup_set_model_option(v->session->setup, MODEL_PLATES,
-                                              g_variant_get_string(parameter, NULL), &problem);
+    const char *path = g_variant_get_string(parameter, NULL);
+    bool good = (path[0] == '\0' || viewer_engine_takes_plates(path, &problem)) &&
+                viewer_setup_set_model_option(v->session->setup, MODEL_PLATES, path, &problem);
     setup_said(v, good, &problem);
 }
 
@@ -127,15 +128,7 @@ static void set_option(viewer *v, int option, const char *text) {
 }
 
 static void set_method(viewer *v, GVariant *parameter) {
-    viewer_setup *setup = v->session->setup;
-    const char *name = g_variant_get_string(parameter, NULL);
-    viewer_words problem = {""};
-    /* A device that lacks the method gives way. */
-    if (viewer_setup_set_method_option(setup, METHOD_NAME, name, &problem) &&
-        viewer_setup_method(setup) == NULL) {
-        viewer_setup_set_method_option(setup, METHOD_DEVICE, "", &problem);
-    }
-    setup_said(v, true, &problem);
+    set_option(v, METHOD_NAME, g_variant_get_string(parameter, NULL));
 }
 
 static void set_device(viewer *v, GVariant *parameter) {
@@ -169,8 +162,13 @@ static void sun_moved(viewer *v) {
 
 static void turn(viewer *v, int axis, GVariant *parameter) {
     double degrees = g_variant_get_double(parameter);
-    if (isfinite(degrees) && v->session->attitude.turn_deg[axis] != degrees) {
-        v->session->attitude.turn_deg[axis] = fmax(-180.0, fmin(180.0, degrees));
+    if (!(fabs(degrees) <= 180.0)) {
+        char said[100];
+        snprintf(said, sizeof said, "Rotation about %c %g: expected degrees from -180 to 180",
+                 "XYZ"[axis], degrees);
+        viewer_complain(v, said);
+    } else if (v->session->attitude.turn_deg[axis] != degrees) {
+        v->session->attitude.turn_deg[axis] = degrees;
         sun_moved(v);
     }
 }
@@ -501,9 +499,9 @@ static const viewer_action ACTIONS[] = {
     {"method", "s", NULL, "Name of the method.", set_method, DOES},
     {"device", "s", NULL, "cpu, gl:osmesa, gl:egl.", set_device, DOES},
     {"parameter", "s", NULL, "NAME=VALUE, an option of 'srp force'.", set_parameter, DOES},
-    {"turn-x", "d", NULL, "Rotation about X in degrees.", turn_x, LOOKS},
-    {"turn-y", "d", NULL, "Rotation about Y in degrees.", turn_y, LOOKS},
-    {"turn-z", "d", NULL, "Rotation about Z in degrees.", turn_z, LOOKS},
+    {"turn-x", "d", NULL, "Rotation about X in degrees, from -180 to 180.", turn_x, LOOKS},
+    {"turn-y", "d", NULL, "Rotation about Y in degrees, from -180 to 180.", turn_y, LOOKS},
+    {"turn-z", "d", NULL, "Rotation about Z in degrees, from -180 to 180.", turn_z, LOOKS},
     {"sun", "s", NULL, "AZ,EL of the Sun in body axes, degrees.", set_sun, LOOKS},
     {"reset-attitude", NULL, "<Control>0", "All rotations to 0.", reset_attitude, LOOKS},
     {"record", NULL, "<Control>b", "Start or stop recording arrows.", toggle_record, LOOKS},

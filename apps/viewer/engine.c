@@ -134,6 +134,28 @@ static void ask_for_optics(viewer_engine *engine, const char *const *names, size
     viewer_words_add(&engine->problem, line);
 }
 
+static bool has_material(const cli_info *info, const char *name) {
+    for (size_t i = 0; i < info->material_count; ++i) {
+        if (strcmp(info->materials[i].name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* In the words of srp_scene_from_mesh(), which here is given only what the mesh has. */
+static void warn_of_strangers(viewer_engine *engine) {
+    const viewer_setup *setup = engine->setup;
+    for (size_t i = 0; i < setup->material_count; ++i) {
+        const char *name = setup->materials[i].name;
+        char line[300];
+        if (!has_material(&engine->shape->info, name)) {
+            snprintf(line, sizeof line, "no face has the given material '%.200s'", name);
+            viewer_words_add(&engine->problem, line);
+        }
+    }
+}
+
 static srp_status join_optics(viewer_engine *engine, srp_error *error) {
     srp_materials *materials = NULL;
     srp_status status = srp_materials_create(&materials, error);
@@ -153,6 +175,7 @@ static srp_status join_optics(viewer_engine *engine, srp_error *error) {
     engine->optics_known = lacking_count == 0;
     ask_for_optics(engine, lacking, lacking_count);
     ask_for_mtl(engine);
+    warn_of_strangers(engine);
     if (status == SRP_OK) {
         status = srp_scene_from_mesh(info->mesh, materials, &engine->mesh, error);
     }
@@ -171,6 +194,17 @@ static srp_status plates_scene(const char *path, srp_scene **out, srp_error *err
         srp_plates_free(plates);
     }
     return status;
+}
+
+bool viewer_engine_takes_plates(const char *path, viewer_words *problem) {
+    srp_scene *scene = NULL;
+    srp_error error;
+    if (plates_scene(path, &scene, &error) != SRP_OK) {
+        viewer_words_add_error(problem, &error);
+        return false;
+    }
+    srp_scene_destroy(scene);
+    return true;
 }
 
 /* The scene that the method takes; NULL with words where there is none. */
@@ -224,11 +258,13 @@ viewer_engine *viewer_engine_make(const viewer_setup *setup, viewer_shape *known
     atomic_init(&engine->references, 1);
     copy->mass = NAN; /* changes without a new engine; whoever wants it asks the session */
     engine->setup = copy;
-    if (setup->model != NULL && !reload && known != NULL && same_text(known->path, setup->model) &&
-        same_text(known->unit, setup->model_option[MODEL_UNIT])) {
-        engine->shape = viewer_shape_reference(known);
-    } else if (setup->model != NULL) {
+    bool is_known = setup->model != NULL && known != NULL && same_text(known->path, setup->model) &&
+                    same_text(known->unit, setup->model_option[MODEL_UNIT]);
+    if (setup->model != NULL && (reload || !is_known)) {
         engine->shape = viewer_shape_read(setup, &engine->problem);
+    }
+    if (engine->shape == NULL && is_known) {
+        engine->shape = viewer_shape_reference(known);
     }
     srp_error error;
     viewer_words_listen(&engine->problem);

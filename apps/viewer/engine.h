@@ -43,10 +43,14 @@ typedef struct viewer_engine {
 } viewer_engine;
 
 /* Reads, joins and prepares; whatever fails is in `problem`. `known` (may be NULL) is taken for the
- * file when it is of the same path and unit and `reload` is false. NULL without memory. */
+ * file when it is of the same path and unit, and `reload` is false or the file cannot be read any
+ * more. NULL without memory. */
 viewer_engine *viewer_engine_make(const viewer_setup *setup, viewer_shape *known, bool reload);
 viewer_engine *viewer_engine_reference(viewer_engine *engine); /* may be NULL, as the next */
 void viewer_engine_release(viewer_engine *engine);
+
+/* Whether a plates file can be used; else `problem` has why. */
+bool viewer_engine_takes_plates(const char *path, viewer_words *problem);
 
 /* The optics that count for material `index` of the shape: what the user said, else the MTL; false:
  * nobody knows. */

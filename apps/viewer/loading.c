@@ -25,9 +25,10 @@ static void loading_deliver(viewer_job *base) {
     }
     if (job->shape == NULL) {
         v->requests.after_engine = NULL;
-        viewer_complain_of_model(v, job->said.text);
+        viewer_complain_about(v, ABOUT_LOADING, job->said.text);
         return;
     }
+    viewer_complain_about(v, ABOUT_LOADING, "");
     viewer_setup_clear_materials(v->session->setup);
     if (!viewer_setup_set_model(v->session->setup, job->shape->path)) {
         viewer_complain(v, "no memory for the spacecraft");

@@ -40,7 +40,7 @@ static void script_free(gpointer user) {
 }
 
 static gboolean fail_at(script *s, size_t line, const char *what) {
-    if (s->name != NULL) {
+    if (s->name != NULL && line > 0) { /* 0: the model, before all steps */
         g_printerr("%s:%zu: %s\n", s->name, line, what);
     } else {
         g_printerr("srp-viewer: %s\n", what);

@@ -116,11 +116,44 @@ bool viewer_setup_set_model_option(viewer_setup *setup, int option, const char *
            keep(&setup->model_option[option], text);
 }
 
+/* The name or the device of the method: together they have to name one that is there. A device that
+ * lacks the method gives way. */
+static bool set_which(viewer_setup *setup, int option, const char *text, viewer_words *problem) {
+    char **device = &setup->method_option[METHOD_DEVICE], **changed = &setup->method_option[option];
+    char *device_before = *device, *before = *changed;
+    const srp_method *method;
+    srp_method_params params;
+    *changed = NULL;
+    if (!keep(changed, text)) {
+        *changed = before;
+        return false;
+    }
+    if (viewer_setup_method(setup) == NULL && option == METHOD_NAME) {
+        *device = NULL;
+    }
+    if (viewer_setup_method(setup) == NULL) {
+        (void)viewer_setup_choose(setup, &method, &params, problem);
+        free(*changed);
+        *changed = before;
+        *device = device_before;
+        return false;
+    }
+    if (*device == NULL && option == METHOD_NAME) {
+        free(device_before);
+    }
+    free(before);
+    return true;
+}
+
 bool viewer_setup_set_method_option(viewer_setup *setup, int option, const char *text,
                                     viewer_words *problem) {
     cli_method_options scratch = cli_method_options_default();
-    return takes(&cli_group_method.options[option], &scratch, text, problem) &&
-           keep(&setup->method_option[option], text);
+    if (!takes(&cli_group_method.options[option], &scratch, text, problem)) {
+        return false;
+    }
+    return option == METHOD_NAME || option == METHOD_DEVICE
+               ? set_which(setup, option, text, problem)
+               : keep(&setup->method_option[option], text);
 }
 
 bool viewer_setup_set_mass(viewer_setup *setup, const char *text, viewer_words *problem) {
@@ -239,6 +272,12 @@ bool viewer_setup_choose(const viewer_setup *setup, const srp_method **method,
     viewer_setup_options(setup, &model, &how);
     const srp_method *chosen = viewer_setup_method(setup);
     bool mesh = chosen == NULL || (chosen->shapes & SRP_SHAPE_MESH) != 0;
+    if (chosen != NULL && mesh && setup->model == NULL) {
+        char line[100];
+        snprintf(line, sizeof line, "method %s needs an OBJ file: open one", chosen->name);
+        viewer_words_add(problem, line);
+        return false;
+    }
     viewer_words_listen(problem);
     int status =
         cli_method_choose(&model, &how, mesh && setup->model != NULL ? 1 : 0, method, params);

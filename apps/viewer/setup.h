@@ -38,7 +38,7 @@ viewer_setup *viewer_setup_copy(const viewer_setup *setup);
 void viewer_setup_destroy(viewer_setup *setup);
 
 /* Each takes "" or NULL for "not given", and is false, with words and without effect, for what the
- * option does not take. */
+ * option does not take. So are methods and devices that are not there. */
 bool viewer_setup_set_model(viewer_setup *setup, const char *path);
 bool viewer_setup_set_model_option(viewer_setup *setup, int option, const char *text,
                                    viewer_words *problem);

@@ -48,10 +48,6 @@ static void load_method(viewer *v, GKeyFile *file) {
         }
         g_free(text);
     }
-    if (viewer_setup_method(v->session->setup) == NULL) {
-        viewer_setup_set_method_option(v->session->setup, METHOD_NAME, "", &ignored);
-        viewer_setup_set_method_option(v->session->setup, METHOD_DEVICE, "", &ignored);
-    }
     char *mass = g_key_file_get_string(file, LIGHT, "mass", NULL);
     viewer_setup_set_mass(v->session->setup, mass, &ignored);
     g_free(mass);

@@ -46,6 +46,7 @@ enum { VIEWER_CHARTS = 4 }; /* x, y, z and length of what is drawn over all dire
 typedef enum viewer_topic {
     ABOUT_STEP, /* something that was refused */
     ABOUT_MODEL,
+    ABOUT_LOADING, /* a spacecraft from disk */
     ABOUT_OPENING, /* tables */
     ABOUT_TABLE,   /* computed, fitted, or missing */
     ABOUT_SAVING,

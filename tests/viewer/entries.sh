@@ -108,7 +108,7 @@ printf '%s\n' 'method raycast' wait 'turn-z 40' record wait 'expect arrows 1 arr
 view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 
 # A file is called by its name on a button, underscores and all.
-printf '0 0 1 1 0.5 0.2\n' > "$scratch/my_pl'ates _x.plates"
+printf '1\n0 0 1 1 0.5 0.2\n' > "$scratch/my_pl'ates _x.plates"
 printf '%s\n' wait 'method nplate' "plates $scratch/my_pl'ates _x.plates" "expect choose-plates my_pl'ates _x.plates" \
     'plates' 'expect choose-plates Plates' > "$scratch/steps"
 view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"

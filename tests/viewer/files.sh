@@ -370,4 +370,61 @@ view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 [ -s "$scratch/dropped.nc" ] || fail 'a dropped table is not shown'
 printf '%s\n' copy-command 'expect message no spacecraft' > "$scratch/steps"
 view 0 --actions "$scratch/steps"
+
+# A spacecraft that cannot be read anew stays: picture, numbers and sliders, until its file is good again.
+cp "$ROOT/models/box-wing.obj" "$scratch/gone.obj"
+cp "$ROOT/models/box-wing.mtl" "$scratch/"
+cat > "$scratch/steps" << END
+wait
+note good
+pause 2
+reload
+wait
+expect message gone.obj
+expect model-name gone.obj
+expect model-facts 60 triangles
+turn-z 33
+wait
+expect turn-z 33
+expect message gone.obj
+print f-x
+note gone
+pause 2
+reload
+wait
+print message
+print f-x
+END
+: > "$scratch/out"
+(
+    until grep -q '^good' "$scratch/out"; do sleep 0.05; done
+    rm "$scratch/gone.obj"
+    until grep -q '^gone' "$scratch/out"; do sleep 0.05; done
+    cp "$ROOT/models/box-wing.obj" "$scratch/gone.obj"
+) &
+writer=$!
+view 0 --actions "$scratch/steps" "$scratch/gone.obj"
+kill "$writer" 2> /dev/null
+[ -z "$(value message)" ] || fail "it is there again: $(value message)"
+[[ $(value f-x) == *e* && $(values f-x | uniq | wc -l) -eq 1 ]] || fail "forces: $(values f-x)"
+
+# Nor does a plates file that cannot be read take the place of one that has been.
+: > "$scratch/empty.plates"
+printf '1\n0 0 1 1 0.5 0.2\n' > "$scratch/good.plates"
+cat > "$scratch/steps" << END
+method nplate
+plates $scratch/good.plates
+wait
+plates $scratch/empty.plates
+plates $scratch/no-such.plates
+expect message no-such.plates
+wait
+expect choose-plates good.plates
+expect message no-such.plates
+expect f-x e
+expect speed-words directions/s
+END
+view 1 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+{ [ "$(wc -l < "$scratch/err")" -eq 1 ] && grep -q 'steps:4: .*empty.plates' "$scratch/err"; } ||
+    fail "the first of two bad plates files: $(cat "$scratch/err")"
 judge

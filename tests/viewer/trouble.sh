@@ -91,6 +91,46 @@ expect lit-area e+
 END
 view 0 --actions "$scratch/steps" "$scratch/no-such.obj"
 
+# A method or a device that is not there is refused at once, and the one before stays; so are angles out of range.
+cat > "$scratch/steps" << END
+wait
+method raycast
+method foo
+expect message unknown method 'foo' (methods: cannonball, nplate, exact, raycast, raytrace)
+expect method raycast
+device xyz
+expect message method raycast is not there for Device xyz, only for cpu
+expect device cpu
+parameter device=xyz
+expect message Device xyz
+wait
+expect method raycast
+expect f-x e
+turn-x 17
+turn-x 720
+expect message Rotation about X 720: expected degrees from -180 to 180
+turn-z nan
+expect message Rotation about Z nan: expected
+turn-x -180.5
+expect message Rotation about X -180.5: expected
+expect turn-x 17
+material nosuch=0.1,0.1
+wait
+expect message no face has the given material 'nosuch'
+expect f-x e
+material
+wait
+print message
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+[ -z "$(value message)" ] || fail "a material that was forgotten: $(value message)"
+
+# What was said of the spacecraft is not lost under what comes of that.
+printf '%s\n' dark 'method raytrace' wait > "$scratch/steps"
+view 1 --actions "$scratch/steps" "$scratch/no-such.obj"
+grep -q 'no-such.obj: cannot open' "$scratch/err" || fail "the spacecraft is not there, and that is not said: $(cat "$scratch/err")"
+grep -q 'steps:3: method raytrace needs an OBJ file: open one' "$scratch/err" || fail "what the method needs: $(cat "$scratch/err")"
+
 # An MTL that is not there is asked for; all else goes on, and another one can be given.
 printf 'mtllib nowhere.mtl\nusemtl foil\nv 0 0 0\nv 1 0 0\nv 0 1.5 0\nf 1 2 3\n' > "$scratch/lost.obj"
 printf 'newmtl foil\nrho_s 0.25\nrho_d 0.125\nnewmtl other\nrho_s 0\nrho_d 0\n' > "$scratch/found.mtl"
