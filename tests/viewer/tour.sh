@@ -69,7 +69,9 @@ expect table box-wing.obj, exact, 10
 screenshot $SHOTS/5-table.png
 save $scratch/exact.nc
 expect message Saved
+enter mass 900
 save $scratch/exact.txt
+expect message exact.txt, for the mass of 850 kg that the table was computed with.
 save $scratch/exact.png
 save $scratch/exact.svg
 expect message Saved
