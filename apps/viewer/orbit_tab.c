@@ -187,8 +187,7 @@ static void show_result(pane *p, const viewer_orbit *orbit) {
         text = g_strdup_printf(
             "%s%s%s: %s%s%s", orbit->name[0], two ? " → " : "", two ? orbit->name[1] : "",
             known && orbit->is_identical ? "the orbits are identical; " : "",
-            known && two ? "the first has " : "",
-            known ? orbit->summary : "no result yet");
+            known && two ? "the first has " : "", known ? orbit->summary : "no result yet");
     }
     if (orbit->count > 0) {
         size_t end = orbit->count - 1;

@@ -215,6 +215,11 @@ printf 'wait\nexpect model-name no-such-model\n' > "$scratch/steps"
 view 1 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 grep -q "steps:.*says 'box-wing.obj', expected 'no-such-model'" "$scratch/err" || fail 'does not say what was expected'
 
+# A name that no widget has is answered by those that there are.
+printf 'wait\nprint moment-x\n' > "$scratch/steps"
+view 1 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+grep -qE "there is no widget 'moment-x' among (.* )?mass .* t-x .* comparison-facts " "$scratch/err" || fail 'does not say which widgets there are'
+
 # What is remembered: nothing of the scripts above, nor of the spacecraft; method, steps, tab, style and files of one that asks.
 [ ! -e "$XDG_CONFIG_HOME/srpcore/viewer.ini" ] || fail 'a script left a state'
 printf '%s\n' 'wait' 'method raycast' 'parameter grid=77' 'enter mass 12.5' 'enter reference 1,2,3' 'az-step 15' 'tab graphics' 'wait' > "$scratch/steps"
