@@ -183,7 +183,7 @@ static GtkWidget *make_area(viewer_charts *c, const char *name, int k) {
     gtk_widget_set_name(area, full);
     gtk_widget_set_hexpand(area, TRUE);
     gtk_widget_set_vexpand(area, TRUE);
-    gtk_widget_set_size_request(area, 160, 100);
+    gtk_widget_set_size_request(area, 160, 96);
     gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(area), draw, c, NULL);
     GtkEventController *motion = gtk_event_controller_motion_new();
     g_signal_connect(motion, "motion", G_CALLBACK(on_motion), c);

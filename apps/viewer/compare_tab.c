@@ -5,6 +5,7 @@
 #include "comparison_view.h"
 #include "facing.h"
 #include "fit.h"
+#include "methods.h"
 #include "text_file.h"
 #include "ui.h"
 #include "viewer.h"
@@ -12,6 +13,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { COLUMNS = 6, PROGRESS_MS = 200 };
 
@@ -87,14 +89,36 @@ static void comparison_run(viewer_job *base) {
     cli_comparison_release(c);
 }
 
+/* Meshes that differ; plates are compared with meshes to see what they miss. */
+static bool are_of_two_shapes(const srp_table_info *a, const srp_table_info *b) {
+    const srp_table_info *const both[2] = {a, b};
+    for (int k = 0; k < 2; ++k) {
+        const srp_method *method = cli_method_find(both[k]->method, "cpu");
+        if (method == NULL || (method->shapes & SRP_SHAPE_MESH) == 0 ||
+            both[k]->shape_hash[0] == '\0') {
+            return false;
+        }
+    }
+    return strcmp(a->shape_hash, b->shape_hash) != 0;
+}
+
+static void note_shapes(const cli_comparison *c, char *text, size_t size) {
+    const srp_table_info *a = srp_table_get_info(c->table[0]), *b = srp_table_get_info(c->table[1]);
+    if (are_of_two_shapes(a, b)) {
+        snprintf(text, size, "\nA and B are of different shapes: %.100s and %.100s.", a->title,
+                 b->title);
+    }
+}
+
 static void show_facts(pane *p) {
     const cli_comparison *c = &p->found;
-    char facts[200];
+    char facts[600], note[300] = "";
+    note_shapes(c, note, sizeof note);
     snprintf(facts, sizeof facts,
              "%zu directions, %g° × %g°, each by its solid angle; mean |f| of A %.6g m², of B "
-             "%.6g m²",
+             "%.6g m²%s",
              c->directions, 360.0 / (c->grid.az_count - 1), 180.0 / (c->grid.el_count - 1),
-             c->difference.mean_a, c->difference.mean_b);
+             c->difference.mean_a, c->difference.mean_b, note);
     gtk_label_set_text(GTK_LABEL(p->facts), facts);
 }
 

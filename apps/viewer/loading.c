@@ -6,7 +6,7 @@
 typedef struct loading_job {
     viewer_job job;
     viewer *v;
-    viewer_setup *setup; /* of now, but for the model */
+    viewer_setup *setup; /* as it was when this was asked for, but for the model */
     viewer_shape *shape;
     viewer_words said; /* warnings, or why there is no shape */
 } loading_job;
@@ -30,6 +30,9 @@ static void loading_deliver(viewer_job *base) {
     }
     viewer_complain_about(v, ABOUT_LOADING, "");
     viewer_setup_clear_materials(v->session->setup);
+    if (v->session->setup->model != NULL) {
+        viewer_setup_forget_spacecraft(v->session->setup, job->setup);
+    }
     if (!viewer_setup_set_model(v->session->setup, job->shape->path)) {
         viewer_complain(v, "no memory for the spacecraft");
         return;

@@ -201,9 +201,11 @@ static void show_boxes(GtkWidget *label, int filled) {
     g_string_free(text, TRUE);
 }
 
-static double to_three_digits(double value) {
-    double unit = pow(10.0, fmax(0.0, floor(log10(value)) - 2.0));
-    return unit * round(value / unit);
+/* Three digits, "0.451", "12.0", "1230"; not as a power of ten. */
+static void write_speed(double value, char *text, size_t size) {
+    double decimals = 2.0 - floor(log10(value)), unit = pow(10.0, -decimals);
+    snprintf(text, size, "%.*f directions/s", (int)fmax(0.0, fmin(9.0, decimals)),
+             unit * round(value / unit));
 }
 
 static void show_probe(pane *p) {
@@ -216,7 +218,7 @@ static void show_probe(pane *p) {
     if (probe->state == PROBE_KNOWN) {
         snprintf(accuracy, sizeof accuracy, "not known");
         fast = boxes_of(1.0 / probe->seconds, 1.0);
-        snprintf(speed, sizeof speed, "%.0f directions/s", to_three_digits(1.0 / probe->seconds));
+        write_speed(1.0 / probe->seconds, speed, sizeof speed);
         if (probe->error == 0.0) {
             exact = BOXES;
             snprintf(accuracy, sizeof accuracy, "no sampling error");

@@ -186,15 +186,17 @@ static void show_result(pane *p, const viewer_orbit *orbit) {
     char *text = NULL, last[200] = "";
     if (orbit->path[0] != NULL) {
         bool two = orbit->path[1] != NULL;
+        bool known = orbit->count > 0;
         text = g_strdup_printf(
-            "%s%s%s: %s%s", orbit->name[0], two ? " → " : "", two ? orbit->name[1] : "",
-            orbit->count > 0 && orbit->is_identical ? "the orbits are identical; " : "",
-            orbit->count > 0 ? orbit->summary : "no result yet");
+            "%s%s%s: %s%s%s", orbit->name[0], two ? " → " : "", two ? orbit->name[1] : "",
+            known && orbit->is_identical ? "the orbits are identical; " : "",
+            known && two ? "the first has " : "", known ? orbit->summary : "no result yet");
     }
     if (orbit->count > 0) {
         size_t end = orbit->count - 1;
         const char *const *names = orbit->is_difference ? DIFFERENCE : POSITION;
-        snprintf(last, sizeof last, "at the end: %s %.9g, %s %.9g, %s %.9g, %s %.9g m", names[0],
+        snprintf(last, sizeof last, "at the end%s: %s %.9g, %s %.9g, %s %.9g, %s %.9g m",
+                 orbit->is_difference ? "" : ", from the central body, axes MJ2000Eq", names[0],
                  orbit->value[0][end], names[1], orbit->value[1][end], names[2],
                  orbit->value[2][end], names[3], orbit->value[3][end]);
     }
@@ -269,6 +271,7 @@ GtkWidget *viewer_orbit_tab(viewer *v) {
     gtk_widget_set_name(p->facts, "orbit-facts");
     gtk_widget_set_name(p->last, "orbit-end");
     gtk_label_set_wrap(GTK_LABEL(p->facts), TRUE);
+    gtk_label_set_wrap(GTK_LABEL(p->last), TRUE);
     gtk_label_set_selectable(GTK_LABEL(p->last), TRUE);
     gtk_widget_set_can_focus(p->last, FALSE);
     gtk_widget_set_margin_start(p->facts, 12);

@@ -4,6 +4,7 @@
 #include "chart.h"
 #include "comparison_view.h"
 #include "fit.h"
+#include "numbers.h"
 #include "orbit.h"
 #include "outputs.h"
 #include "restate.h"
@@ -96,6 +97,23 @@ static bool save_comparison(viewer *v, const char *path, viewer_words *problem) 
 
 /* ---- all tabs ---- */
 
+/* ", for the mass of 850 kg that ..." of a table in a format that states accelerations; "": it has
+ * no mass. */
+static char *said_of_mass(const viewer *v, const char *path) {
+    const srp_table_format *format = srp_table_format_of(path);
+    if (gtk_notebook_get_current_page(v->tabs) != TAB_GRAPHICS || format == NULL ||
+        (format->capabilities & SRP_FORMAT_MASS) == 0) {
+        return g_strdup("");
+    }
+    const viewer_table *entry = v->session->tables[v->table_shown];
+    double own = srp_table_get_info(entry->table)->mass;
+    char kg[CLI_NUMBER_SIZE];
+    return isnan(own) ? g_strdup_printf(", for the mass of %s kg that is typed now",
+                                        cli_write_number(v->session->setup->mass, kg))
+                      : g_strdup_printf(", for the mass of %s kg that the table was computed with",
+                                        cli_write_number(own, kg));
+}
+
 static const viewer_saving SAVINGS[TAB_COUNT] = {
     [TAB_SPACECRAFT] = {"Save the Picture",
                         "spacecraft.png",
@@ -164,8 +182,10 @@ void viewer_save(viewer *v, const char *path) {
         viewer_complain_about(v, ABOUT_SAVING, problem.text);
         return;
     }
-    char *said = g_strdup_printf("Saved %s.", path);
+    char *mass = said_of_mass(v, path);
+    char *said = g_strdup_printf("Saved %s%s.", path, mass);
     viewer_complain_about(v, ABOUT_SAVING, "");
     viewer_say(v, said);
     g_free(said);
+    g_free(mass);
 }

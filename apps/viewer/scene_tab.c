@@ -254,7 +254,7 @@ static GtkWidget *make_controls(pane *p) {
 }
 
 static GtkWidget *make_side(pane *p) {
-    GtkWidget *side = ui_box(GTK_ORIENTATION_VERTICAL, 8);
+    GtkWidget *side = ui_box(GTK_ORIENTATION_VERTICAL, 4);
     p->latency = ui_label("", "dim small");
     p->extra = ui_label("", "dim small");
     gtk_label_set_wrap(GTK_LABEL(p->extra), TRUE);

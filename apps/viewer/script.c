@@ -138,9 +138,11 @@ static GtkWidget *find_widget(script *s, char *words, char **text) {
     }
     GtkWidget *widget = ui_find(s->v, words);
     if (widget == NULL) {
-        char *said = g_strdup_printf("there is no widget '%s'", words);
+        char *names = ui_names(s->v);
+        char *said = g_strdup_printf("there is no widget '%s' among %s", words, names);
         fail(s, said);
         g_free(said);
+        g_free(names);
     }
     return widget;
 }

@@ -213,6 +213,20 @@ void viewer_setup_clear_materials(viewer_setup *setup) {
     setup->material_count = 0;
 }
 
+static bool is_same_text(const char *a, const char *b) {
+    return strcmp(a != NULL ? a : "", b != NULL ? b : "") == 0;
+}
+
+void viewer_setup_forget_spacecraft(viewer_setup *setup, const viewer_setup *asked) {
+    char **reference = &setup->method_option[METHOD_REFERENCE];
+    if (setup->mass == asked->mass) {
+        setup->mass = NAN;
+    }
+    if (is_same_text(*reference, asked->method_option[METHOD_REFERENCE])) {
+        keep(reference, NULL);
+    }
+}
+
 bool viewer_setup_find_material(const viewer_setup *setup, const char *name, srp_optics *out) {
     for (size_t i = 0; i < setup->material_count; ++i) {
         if (strcmp(setup->materials[i].name, name) == 0) {

@@ -5,12 +5,10 @@
 #include "system.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char WINDOW[] = "window", METHOD[] = "method", LIGHT[] = "spacecraft",
-                  TABLE[] = "table";
+static const char WINDOW[] = "window", METHOD[] = "method", TABLE[] = "table";
 
 /* GLib takes a relative $XDG_CONFIG_HOME, too, which the specification has ignored. */
 static char *file_name(void) {
@@ -38,19 +36,21 @@ static void load_window(viewer *v, GKeyFile *file) {
     }
 }
 
+/* The reference point is the spacecraft's, as the mass is: the next one has another. */
+static bool is_remembered(int option) {
+    return option != METHOD_REFERENCE;
+}
+
 /* Each option as it was typed; one that this version does not take is left out. */
 static void load_method(viewer *v, GKeyFile *file) {
     viewer_words ignored = {""};
     for (int i = 0; i < METHOD_OPTION_COUNT; ++i) {
         char *text = g_key_file_get_string(file, METHOD, cli_group_method.options[i].name, NULL);
-        if (text != NULL) {
+        if (text != NULL && is_remembered(i)) {
             viewer_setup_set_method_option(v->session->setup, i, text, &ignored);
         }
         g_free(text);
     }
-    char *mass = g_key_file_get_string(file, LIGHT, "mass", NULL);
-    viewer_setup_set_mass(v->session->setup, mass, &ignored);
-    g_free(mass);
 }
 
 static double number(GKeyFile *file, const char *key, double otherwise) {
@@ -97,7 +97,6 @@ void viewer_state_save(viewer *v) {
     gboolean dark;
     (void)g_key_file_load_from_file(file, name, G_KEY_FILE_NONE, NULL);
     (void)g_key_file_remove_group(file, METHOD, NULL);
-    (void)g_key_file_remove_group(file, LIGHT, NULL);
     gtk_window_get_default_size(v->window, &width, &height);
     g_object_get(gtk_widget_get_settings(GTK_WIDGET(v->window)),
                  "gtk-application-prefer-dark-theme", &dark, NULL);
@@ -107,13 +106,10 @@ void viewer_state_save(viewer *v) {
     g_key_file_set_integer(file, WINDOW, "tab", gtk_notebook_get_current_page(v->tabs));
     const viewer_setup *setup = v->session->setup;
     for (int i = 0; i < METHOD_OPTION_COUNT; ++i) {
-        if (setup->method_option[i] != NULL) {
+        if (setup->method_option[i] != NULL && is_remembered(i)) {
             g_key_file_set_string(file, METHOD, cli_group_method.options[i].name,
                                   setup->method_option[i]);
         }
-    }
-    if (!isnan(setup->mass)) {
-        g_key_file_set_double(file, LIGHT, "mass", setup->mass);
     }
     g_key_file_set_double(file, TABLE, "az-step", v->az_step_deg);
     g_key_file_set_double(file, TABLE, "el-step", v->el_step_deg);

@@ -531,3 +531,23 @@ static GtkWidget *find_below(GtkWidget *widget, const char *name) {
 GtkWidget *ui_find(viewer *v, const char *name) {
     return v->window != NULL ? find_below(GTK_WIDGET(v->window), name) : NULL;
 }
+
+/* GTK calls a widget that has no name by its type. */
+static void append_names(GtkWidget *widget, GString *names) {
+    const char *name = gtk_widget_get_name(widget);
+    if (strcmp(name, G_OBJECT_TYPE_NAME(widget)) != 0) {
+        g_string_append_printf(names, "%s%s", names->len > 0 ? " " : "", name);
+    }
+    for (GtkWidget *child = gtk_widget_get_first_child(widget); child != NULL;
+         child = gtk_widget_get_next_sibling(child)) {
+        append_names(child, names);
+    }
+}
+
+char *ui_names(viewer *v) {
+    GString *names = g_string_new("");
+    if (v->window != NULL) {
+        append_names(GTK_WIDGET(v->window), names);
+    }
+    return g_string_free(names, FALSE);
+}

@@ -74,5 +74,7 @@ void ui_choice_set_tables(viewer *v, GtkDropDown *choice, int selected);
 void ui_clear(GtkWidget *parent);
 /* The widget of this name in the window, NULL: none. */
 GtkWidget *ui_find(viewer *v, const char *name);
+/* The names of all that are there now, with blanks between them; freed by g_free(). */
+char *ui_names(viewer *v);
 
 #endif

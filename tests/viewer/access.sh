@@ -27,6 +27,16 @@ audit $'turn-z 1\nwait\nturn-z 2\nwait\nturn-z 3\nwait\nexpect latency ms after'
 audit $'method raytrace\naz-step 30\nel-step 30\ncompute-table\nwait\ntab compare\nfit 4'
 audit $'az-step 30\nel-step 30\ntab graphics\ncompute-table\nwait'
 audit $'method raycast\nwait\nexpect method-summary lattice of rays'
+audit "method nplate"$'\nwait\nexpect message needs a file\nsave '"$scratch/picture.png"$'\nexpect message Saved'
+
+# The last number, too, without scrolling, however much there is to say of a spacecraft and its method.
+printf '%s\n' 'resize 800 640' 'method raytrace' 'parameter grid=64' 'parameter diffuse=1' 'enter mass 850' wait 'turn-z 1' wait \
+    'expect latency ms after' 'expect extra reflected' 'place latency' 'place message' > "$scratch/steps"
+view 0 --actions "$scratch/steps" "$ROOT/models/sun-shield.obj"
+read -r _ top _ high <<< "$(value 'place of latency')"
+read -r _ below _ <<< "$(value 'place of message')"
+[ "$((top + high))" -lt "$below" ] || fail "the last number ends at $((top + high)) px, the line below it begins at $below"
+
 for method in exact raycast raytrace; do
     audit "method $method" '1280 800'
 done

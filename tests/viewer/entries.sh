@@ -101,6 +101,41 @@ note taken
 END
 view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 
+# Mass and reference point are the spacecraft's: they stay when it is read again, and go when another one is
+# opened, unless they were typed for that one, before there was any or since it was asked for.
+cat > "$scratch/steps" << END
+enter mass 850
+enter reference 1,2,3
+open $ROOT/models/box-wing.obj
+wait
+expect mass 850
+reload
+wait
+open $ROOT/models/box-wing.obj
+wait
+expect mass 850
+expect reference 1,2,3
+expect acceleration-x e-
+open $ROOT/models/sun-shield.obj
+wait
+print mass
+print reference
+expect acceleration-x —
+enter mass 6200
+open $ROOT/models/cube.obj
+enter mass 12
+wait
+expect model-name cube.obj
+expect mass 12
+END
+view 0 --actions "$scratch/steps"
+[ -z "$(value mass)$(value reference)" ] || fail 'mass and reference point of the spacecraft before'
+
+# A slow method has digits, too.
+printf '%s\n' 'method raytrace' 'parameter grid=256' 'parameter diffuse=16' wait 'pause 0.5' wait 'print speed-words' > "$scratch/steps"
+view 0 --actions "$scratch/steps" "$ROOT/models/dish.obj"
+value speed-words | grep -qE '^(0\.[0-9]{3}|[0-9]\.[0-9]{2}|[0-9]{2}\.[0-9]) directions/s' || fail "the speed is '$(value speed-words)'"
+
 # Recording begins with what is shown now, also where that is still being computed.
 printf '%s\n' 'method raycast' wait 'turn-z 40' record wait 'expect arrows 1 arrow' 'turn-z 50' wait 'expect arrows 2 arrows' record \
     clear-arrows record 'expect arrows 1 arrow' record clear-arrows 'type sun 5,5' record wait 'expect arrows 1 arrow' \

@@ -176,6 +176,35 @@ if "$SRP" fit-nplate "$scratch/fine.nc" --plates 5 -o "$scratch/cli.plates" > "$
     compared "$scratch/fine.nc" "$scratch/five.nc" "$scratch/fit"
 fi
 
+# Tables of two spacecraft are compared with a word about it; two methods of one, and plates, without.
+cat > "$scratch/steps" << END
+az-step 30
+el-step 30
+wait
+compute-table
+wait
+method raycast
+wait
+compute-table
+wait
+tab compare
+wait
+print comparison-facts
+open $ROOT/models/gnss.obj
+wait
+compute-table
+wait
+compare-b 3
+wait
+expect comparison-facts A and B are of different shapes: cube.obj and gnss.obj.
+fit 2
+wait
+print comparison-facts
+END
+view 0 --actions "$scratch/steps" "$ROOT/models/cube.obj"
+[ "$(values comparison-facts | grep -c directions)" -eq 2 ] || fail 'tables were not compared'
+! values comparison-facts | grep -q different || fail "one spacecraft is called two: $(values comparison-facts)"
+
 # Tables of a quarter of a million directions are compared when somebody looks, beside the window.
 "$SRP" table --method cannonball --cr 1.25 --area 2.5 --step 0.5 -o "$scratch/half.nc" > "$scratch/log" 2>&1 || fail 'srp table'
 "$SRP" table --method nplate --plates "$ROOT/models/box-wing.plates" --step 1 -o "$scratch/one.nc" > "$scratch/log" 2>&1 || fail 'srp table'

@@ -31,7 +31,8 @@ save $scratch/early.csv
 expect message The mission has no result yet
 propagate
 wait
-expect orbit-end at the end
+expect orbit-end at the end, from the central body, axes MJ2000Eq: x 
+expect orbit-facts box-wing.yaml (exact): 
 expect orbit-facts penumbras
 mission $scratch
 wait
@@ -57,8 +58,9 @@ save $scratch/early.csv
 expect message The mission has no result yet
 propagate
 wait
-expect orbit-facts box-wing.yaml (exact) → ball.yaml (cannonball): 
-expect orbit-end at the end
+expect orbit-facts box-wing.yaml (exact) → ball.yaml (cannonball): the first has 
+expect orbit-end at the end: radial
+screenshot $SHOTS/orbit-both.png
 save $scratch/both.csv
 versus 
 print orbit-end

@@ -69,7 +69,9 @@ expect table box-wing.obj, exact, 10
 screenshot $SHOTS/5-table.png
 save $scratch/exact.nc
 expect message Saved
+enter mass 900
 save $scratch/exact.txt
+expect message exact.txt, for the mass of 850 kg that the table was computed with.
 save $scratch/exact.png
 save $scratch/exact.svg
 expect message Saved
@@ -213,12 +215,18 @@ printf 'wait\nexpect model-name no-such-model\n' > "$scratch/steps"
 view 1 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 grep -q "steps:.*says 'box-wing.obj', expected 'no-such-model'" "$scratch/err" || fail 'does not say what was expected'
 
-# What is remembered: nothing of the scripts above; method, mass, steps, tab, style and files of one that asks.
+# A name that no widget has is answered by those that there are.
+printf 'wait\nprint moment-x\n' > "$scratch/steps"
+view 1 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+grep -qE "there is no widget 'moment-x' among (.* )?mass .* t-x .* comparison-facts " "$scratch/err" || fail 'does not say which widgets there are'
+
+# What is remembered: nothing of the scripts above, nor of the spacecraft; method, steps, tab, style and files of one that asks.
 [ ! -e "$XDG_CONFIG_HOME/srpcore/viewer.ini" ] || fail 'a script left a state'
-printf '%s\n' 'wait' 'method raycast' 'parameter grid=77' 'enter mass 12.5' 'az-step 15' 'tab graphics' 'wait' > "$scratch/steps"
+printf '%s\n' 'wait' 'method raycast' 'parameter grid=77' 'enter mass 12.5' 'enter reference 1,2,3' 'az-step 15' 'tab graphics' 'wait' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps" "$ROOT/models/cube.obj"
-printf '%s\n' 'wait' 'expect method raycast' 'expect grid 77' 'expect mass 12.5' 'expect az-step 15' 'method exact' 'wait' 'expect message needs an OBJ file' > "$scratch/steps"
+printf '%s\n' 'wait' 'expect method raycast' 'expect grid 77' 'print mass' 'print reference' 'expect az-step 15' 'method exact' 'wait' 'expect message needs an OBJ file' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps"
+[ -z "$(value mass)$(value reference)" ] || fail 'mass and reference point of another spacecraft'
 grep -q '^files=.*models/cube.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the file is not among the recent ones'
 grep -q '^tab=1' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the tab is not remembered'
 printf 'v 1 2 x\n' > "$scratch/broken.obj"
