@@ -301,6 +301,24 @@ static void wait_for_frames(script *s) {
     s->shown_at = frame_now(s) + FRAMES_TO_SHOW;
 }
 
+/* Of an action's type; NULL, said: it is none. */
+static GVariant *parameter_of(script *s, const viewer_action *action, const char *text) {
+    char *end;
+    if (strcmp(action->type, "s") == 0) {
+        return g_variant_new_string(text);
+    }
+    bool whole = strcmp(action->type, "i") == 0;
+    double number = g_ascii_strtod(text, &end);
+    if (end == text || *end != '\0' || (whole && number != CLAMP(rint(number), -1e9, 1e9))) {
+        char *said = g_strdup_printf("%s %s: expected a %snumber", action->name, text,
+                                     whole ? "whole " : "");
+        fail(s, said);
+        g_free(said);
+        return NULL;
+    }
+    return whole ? g_variant_new_int32((gint32)number) : g_variant_new_double(number);
+}
+
 static gboolean activate(script *s, const char *name, const char *rest) {
     size_t count;
     const viewer_action *actions = viewer_action_list(&count);
@@ -308,15 +326,10 @@ static gboolean activate(script *s, const char *name, const char *rest) {
         if (strcmp(actions[i].name, name) != 0) {
             continue;
         }
-        const char *type = actions[i].type;
-        GVariant *parameter = NULL;
-        if (type != NULL && strcmp(type, "s") == 0) {
-            parameter = g_variant_new_string(rest);
-        } else if (type != NULL && strcmp(type, "i") == 0) {
-            long number = strtol(rest, NULL, 10);
-            parameter = g_variant_new_int32((gint32)CLAMP(number, G_MININT32, G_MAXINT32));
-        } else if (type != NULL) {
-            parameter = g_variant_new_double(g_ascii_strtod(rest, NULL));
+        bool takes = actions[i].type != NULL;
+        GVariant *parameter = takes ? parameter_of(s, &actions[i], rest) : NULL;
+        if (takes && parameter == NULL) {
+            return FALSE;
         }
         viewer_act(s->v, name, parameter);
         return TRUE;

@@ -160,7 +160,7 @@ static GtkWidget *make_strip(pane *p) {
     p->table = ui_choice("table", G_CALLBACK(on_choice), p);
     gtk_widget_set_hexpand(p->table, TRUE);
     gtk_widget_set_size_request(p->table, 240, -1);
-    p->reoptic = ui_button("_Re-optic", "reoptic",
+    p->reoptic = ui_button("Ne_w Optics", "reoptic",
                            "This table is of other optics than Materials has now: make one of "
                            "those from it, without tracing light again");
     gtk_widget_set_name(p->reoptic, "reoptic");
@@ -171,10 +171,11 @@ static GtkWidget *make_strip(pane *p) {
     gtk_box_append(strip, p->progress);
     gtk_box_append(strip, ui_pair(ui_mnemonic("Ta_ble", p->table), p->table));
     gtk_box_append(strip, p->reoptic);
-    gtk_box_append(strip, ui_button("O_pen…", "choose-table", "Open a table from disk"));
-    gtk_box_append(strip,
-                   ui_button("Sav_e…", "choose-save",
-                             "Save the table (.nc, .spo, .txt) or the figure (.png, .svg, .pdf)"));
+    gtk_box_append(
+        strip,
+        ui_pair(ui_button("O_pen…", "choose-table", "Open a table from disk"),
+                ui_button("Sav_e…", "choose-save",
+                          "Save the table (.nc, .spo, .txt) or the figure (.png, .svg, .pdf)")));
     gtk_widget_add_css_class(box, "strip");
     gtk_widget_add_css_class(box, "pane");
     return box;

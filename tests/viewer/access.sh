@@ -25,7 +25,7 @@ audit $'method nplate\nwait\nexpect message needs a file\ntab compare'
 audit 'tab orbit'
 audit $'turn-z 1\nwait\nturn-z 2\nwait\nturn-z 3\nwait\nexpect latency ms after'
 audit $'method raytrace\naz-step 30\nel-step 30\ncompute-table\nwait\ntab compare\nfit 4'
-audit $'az-step 30\nel-step 30\ntab graphics\ncompute-table\nwait'
+audit $'az-step 30\nel-step 30\ntab graphics\ncompute-table\nwait\nmaterial bus=0.3,0.2\nwait\nexpect reoptic New Optics'
 audit $'method raycast\nwait\nexpect method-summary lattice of rays'
 audit "method nplate"$'\nwait\nexpect message needs a file\nsave '"$scratch/picture.png"$'\nexpect message Saved'
 

@@ -220,6 +220,13 @@ printf 'wait\nprint moment-x\n' > "$scratch/steps"
 view 1 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 grep -qE "there is no widget 'moment-x' among (.* )?mass .* t-x .* comparison-facts " "$scratch/err" || fail 'does not say which widgets there are'
 
+# Numbers are read whole, and whole ones are meant.
+for step in 'turn-x abc' 'turn-x 1,5' 'turn-x' 'show-table 1.5' 'show-table 99999999999'; do
+    printf 'wait\n%s\n' "$step" > "$scratch/steps"
+    view 1 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
+    grep -q "steps:2: $step.*: expected a .*number" "$scratch/err" || fail "$step: no word that it is no number"
+done
+
 # What is remembered: nothing of the scripts above, nor of the spacecraft; method, steps, tab, style and files of one that asks.
 [ ! -e "$XDG_CONFIG_HOME/srpcore/viewer.ini" ] || fail 'a script left a state'
 printf '%s\n' 'wait' 'method raycast' 'parameter grid=77' 'enter mass 12.5' 'enter reference 1,2,3' 'az-step 15' 'tab graphics' 'wait' > "$scratch/steps"
