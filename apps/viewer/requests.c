@@ -224,27 +224,15 @@ static void force_release(viewer_job *base) {
     free(job);
 }
 
-/* A frame's share that a force may take of it, so that the frame shows it [s]. */
-static const double SETTLE_SECONDS = 4e-3;
-
-static gboolean settle_force(GtkWidget *window, GdkFrameClock *clock, gpointer user) {
-    viewer *v = user;
-    (void)window, (void)clock;
-    v->requests.settle = 0;
-    if (v->requests.live != NULL && viewer_worker_is_busy(v->requests.live, SLOT_FORCE)) {
-        viewer_worker_settle(v->requests.live, SLOT_FORCE, SETTLE_SECONDS);
-    }
-    return G_SOURCE_REMOVE;
+bool viewer_force_is_quick(const viewer *v, double seconds) {
+    const viewer_session *s = v->session;
+    return s->force_known && s->force.seconds < seconds &&
+           viewer_worker_is_busy(v->requests.live, SLOT_FORCE);
 }
 
-/* What the pointer does comes with a frame: the force of it would be in the next one only, however
- * quickly it is there, while drawing this one takes longest of all. */
-static void settle_before_frame(viewer *v) {
-    const viewer_session *s = v->session;
-    if (v->requests.settle == 0 && v->window != NULL && s->force_known &&
-        s->force.seconds < SETTLE_SECONDS) {
-        v->requests.settle =
-            gtk_widget_add_tick_callback(GTK_WIDGET(v->window), settle_force, v, NULL);
+void viewer_settle_force(viewer *v, double seconds) {
+    if (v->requests.live != NULL && viewer_force_is_quick(v, seconds)) {
+        viewer_worker_settle(v->requests.live, SLOT_FORCE, seconds);
     }
 }
 
@@ -262,7 +250,6 @@ void viewer_request_force(viewer *v) {
     job->asked_at = v->session->asked_at;
     viewer_attitude_sun(&v->session->attitude, &job->az_deg, &job->el_deg);
     viewer_worker_submit(v->requests.live, SLOT_FORCE, &job->job);
-    settle_before_frame(v);
 }
 
 /* ---- probe ---- */

@@ -44,7 +44,6 @@ typedef struct viewer_requests {
     viewer_worker *tables;  /* what is done with tables, and models and missions that are read:
                                takes seconds at most */
     viewer_worker *shadows; /* the picture's */
-    guint settle;           /* before the next frame, for the force; 0: not */
     viewer_progress table;
     viewer_probe probe;
     GQueue to_open;                  /* paths of tables, each freed by free() */
@@ -70,6 +69,10 @@ void viewer_request_engine(viewer *v, bool reload);
 void viewer_request_engine_of(viewer *v, viewer_shape *shape, const viewer_words *said);
 /* The Sun has moved. */
 void viewer_request_force(viewer *v);
+/* Is a force on its way that takes less than so many seconds, as the last one did? */
+bool viewer_force_is_quick(const viewer *v, double seconds);
+/* Waits for it, no longer than that, and has it shown. */
+void viewer_settle_force(viewer *v, double seconds);
 /* Does an engine of what the user has said last have to be made first? Then `what` is called when
  * it is there, unless something else is asked for meanwhile, or it is cancelled. */
 bool viewer_comes_after_engine(viewer *v, void (*what)(viewer *v));

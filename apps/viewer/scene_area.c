@@ -24,6 +24,7 @@ typedef struct area {
     bool moving, coarse; /* something moved just now; the picture that is shown is simplified */
     guint settle;        /* the moment's end; 0: none */
     guint early;         /* light that is found before the force is there; 0: none */
+    guint frame;         /* a frame is about to be drawn that may show the force; 0: none */
     viewer_engine *lit;  /* whose light the renderer has, from there; NULL: none */
     srp_vec3 lit_sun;
 } area;
@@ -33,6 +34,8 @@ enum { SETTLE_MS = 250 };
  * once, unless the force takes longer than this [s]. */
 enum { EARLY_FACETS = 5000 };
 static const double EARLY_SECONDS = 0.2;
+/* What a frame waits for a force at most [s]. */
+static const double FRAME_SECONDS = 0.05;
 
 /* ---- OpenGL ---- */
 
@@ -414,14 +417,30 @@ static gboolean find_light_early(gpointer user) {
 static bool waits_for_force(area *a, unsigned what) {
     const viewer_session *s = a->v->session;
     return what == CHANGED_SUN && a->v->shadows && !is_large(a) && s->engine == a->drawn &&
-           a->drawn != NULL && a->drawn->mesh != NULL && s->force_known &&
+           a->drawn != NULL && a->drawn->mesh != NULL &&
            srp_scene_facet_count(a->drawn->mesh) > EARLY_FACETS &&
-           s->force.seconds < EARLY_SECONDS &&
-           viewer_worker_is_busy(a->v->requests.live, SLOT_FORCE);
+           viewer_force_is_quick(a->v, EARLY_SECONDS);
+}
+
+/* What the pointer does comes with a frame, and its force would be in the next one only, behind
+ * the drawing of this one, which takes longest of all. */
+static gboolean on_frame(GtkWidget *widget, GdkFrameClock *clock, gpointer user) {
+    area *a = user;
+    (void)widget, (void)clock;
+    a->frame = 0;
+    if (a->early != 0) {
+        g_source_remove(a->early);
+        find_light_early(a);
+    }
+    viewer_settle_force(a->v, FRAME_SECONDS);
+    return G_SOURCE_REMOVE;
 }
 
 static void draw_soon(area *a, unsigned what) {
     a->v->picture_is_old = true;
+    if (a->frame == 0 && what == CHANGED_SUN && viewer_force_is_quick(a->v, FRAME_SECONDS)) {
+        a->frame = gtk_widget_add_tick_callback(a->gl, on_frame, a, NULL);
+    }
     if (!waits_for_force(a, what)) {
         gtk_gl_area_queue_render(GTK_GL_AREA(a->gl));
         return;

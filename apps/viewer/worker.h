@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * One thread that computes, so that the window never waits. Jobs go into numbered slots: a job that
- * still waits in a slot is dropped for a newer one, so that a slider can ask as often as it likes.
- * What is done comes back to the thread of the main context.
+ * One thread that computes, so that the window need not wait. Jobs go into numbered slots: a job
+ * that still waits in a slot is dropped for a newer one, so that a slider can ask as often as it
+ * likes. What is done comes back to the thread of the main context.
  *
  * All functions are called from that thread, but for viewer_job's run().
  */
