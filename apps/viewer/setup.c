@@ -217,13 +217,20 @@ static bool is_same_text(const char *a, const char *b) {
     return strcmp(a != NULL ? a : "", b != NULL ? b : "") == 0;
 }
 
+bool viewer_setup_is_of_spacecraft(int method_option) {
+    return method_option == METHOD_CR || method_option == METHOD_AREA ||
+           method_option == METHOD_REFERENCE;
+}
+
 void viewer_setup_forget_spacecraft(viewer_setup *setup, const viewer_setup *asked) {
-    char **reference = &setup->method_option[METHOD_REFERENCE];
     if (setup->mass == asked->mass) {
         setup->mass = NAN;
     }
-    if (is_same_text(*reference, asked->method_option[METHOD_REFERENCE])) {
-        keep(reference, NULL);
+    for (int i = 0; i < METHOD_OPTION_COUNT; ++i) {
+        if (viewer_setup_is_of_spacecraft(i) &&
+            is_same_text(setup->method_option[i], asked->method_option[i])) {
+            keep(&setup->method_option[i], NULL);
+        }
     }
 }
 

@@ -51,8 +51,10 @@ bool viewer_setup_set_material(viewer_setup *setup, const char *name, srp_optics
 bool viewer_setup_set_material_text(viewer_setup *setup, const char *text, viewer_words *problem);
 /* Forgets what was said of all materials. */
 void viewer_setup_clear_materials(viewer_setup *setup);
-/* Forgets mass and reference point, which were the last spacecraft's, before another is there; but
- * for what has changed since `asked`, a copy from when the other one was asked for. */
+/* Does an option of the method describe the spacecraft: its sphere, its reference point? */
+bool viewer_setup_is_of_spacecraft(int method_option);
+/* Forgets these and the mass before another spacecraft is there; but for what has changed since
+ * `asked`, a copy from when the other one was asked for. */
 void viewer_setup_forget_spacecraft(viewer_setup *setup, const viewer_setup *asked);
 /* What was said of one; false, *out unchanged: nothing. */
 bool viewer_setup_find_material(const viewer_setup *setup, const char *name, srp_optics *out);

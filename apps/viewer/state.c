@@ -36,17 +36,13 @@ static void load_window(viewer *v, GKeyFile *file) {
     }
 }
 
-/* The reference point is the spacecraft's, as the mass is: the next one has another. */
-static bool is_remembered(int option) {
-    return option != METHOD_REFERENCE;
-}
-
-/* Each option as it was typed; one that this version does not take is left out. */
+/* Each option as it was typed, but for what is a spacecraft's; one that this version does not take
+ * is left out. */
 static void load_method(viewer *v, GKeyFile *file) {
     viewer_words ignored = {""};
     for (int i = 0; i < METHOD_OPTION_COUNT; ++i) {
         char *text = g_key_file_get_string(file, METHOD, cli_group_method.options[i].name, NULL);
-        if (text != NULL && is_remembered(i)) {
+        if (text != NULL && !viewer_setup_is_of_spacecraft(i)) {
             viewer_setup_set_method_option(v->session->setup, i, text, &ignored);
         }
         g_free(text);
@@ -106,7 +102,7 @@ void viewer_state_save(viewer *v) {
     g_key_file_set_integer(file, WINDOW, "tab", gtk_notebook_get_current_page(v->tabs));
     const viewer_setup *setup = v->session->setup;
     for (int i = 0; i < METHOD_OPTION_COUNT; ++i) {
-        if (setup->method_option[i] != NULL && is_remembered(i)) {
+        if (setup->method_option[i] != NULL && !viewer_setup_is_of_spacecraft(i)) {
             g_key_file_set_string(file, METHOD, cli_group_method.options[i].name,
                                   setup->method_option[i]);
         }

@@ -106,6 +106,8 @@ view 0 --actions "$scratch/steps" "$ROOT/models/box-wing.obj"
 cat > "$scratch/steps" << END
 enter mass 850
 enter reference 1,2,3
+parameter area=7
+parameter cr=1.2
 open $ROOT/models/box-wing.obj
 wait
 expect mass 850
@@ -120,6 +122,11 @@ open $ROOT/models/sun-shield.obj
 wait
 print mass
 print reference
+method cannonball
+wait
+expect message needs Cr and Area
+method exact
+wait
 expect acceleration-x —
 enter mass 6200
 open $ROOT/models/cube.obj

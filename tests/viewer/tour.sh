@@ -229,11 +229,12 @@ done
 
 # What is remembered: nothing of the scripts above, nor of the spacecraft; method, steps, tab, style and files of one that asks.
 [ ! -e "$XDG_CONFIG_HOME/srpcore/viewer.ini" ] || fail 'a script left a state'
-printf '%s\n' 'wait' 'method raycast' 'parameter grid=77' 'enter mass 12.5' 'enter reference 1,2,3' 'az-step 15' 'tab graphics' 'wait' > "$scratch/steps"
+printf '%s\n' 'wait' 'method raycast' 'parameter grid=77' 'enter mass 12.5' 'enter reference 1,2,3' 'parameter area=7' 'az-step 15' 'tab graphics' 'wait' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps" "$ROOT/models/cube.obj"
 printf '%s\n' 'wait' 'expect method raycast' 'expect grid 77' 'print mass' 'print reference' 'expect az-step 15' 'method exact' 'wait' 'expect message needs an OBJ file' > "$scratch/steps"
 view 0 --remember --actions "$scratch/steps"
 [ -z "$(value mass)$(value reference)" ] || fail 'mass and reference point of another spacecraft'
+! grep -q '^area' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the area of another spacecraft'
 grep -q '^files=.*models/cube.obj;' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the file is not among the recent ones'
 grep -q '^tab=1' "$XDG_CONFIG_HOME/srpcore/viewer.ini" || fail 'the tab is not remembered'
 printf 'v 1 2 x\n' > "$scratch/broken.obj"
