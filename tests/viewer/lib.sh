@@ -40,11 +40,23 @@ run_viewer() {
     env ${VIEWER_PRELOAD:+"LD_PRELOAD=$VIEWER_PRELOAD"} timeout 300 "$VIEWER" "$@"
 }
 
+# Of the run in $scratch: the checker of leaks broke down itself, over a thread that was just coming or going as it
+# stopped them all, which happens once in hundreds of ends. Its status hides the viewer's, which tells each failure in
+# words, too.
+is_without_verdict() {
+    grep -q 'LeakSanitizer has encountered a fatal error' "$scratch/err" &&
+        ! grep -qE '^srp-viewer: |^[^ ]*:[0-9]+: ' "$scratch/err"
+}
+
 # view STATUS ARGUMENTS...: runs the viewer, for two minutes at most; output in $scratch/out and err.
 view() {
     local want=$1 got=0
     shift
     run_viewer "$@" > "$scratch/out" 2> "$scratch/err" || got=$?
+    if [ "$want" -eq 0 ] && is_without_verdict; then
+        echo "no verdict on leaks: srp-viewer $*"
+        got=0
+    fi
     if [ "$got" -ne "$want" ]; then
         fail "status $got, expected $want: srp-viewer $*"
         sed 's/^/  /' "$scratch/out" "$scratch/err"
