@@ -270,14 +270,10 @@ static void on_map(GtkWidget *box, gpointer user) {
 /* ---- progress of the fit ---- */
 
 static void show_progress(pane *p) {
-    const char *waits_for = viewer_waits_for(p->v, SLOT_FIT);
-    char text[64] = "Cancelling …";
-    if (!viewer_fit_is_cancelling(p->v) && waits_for != NULL) {
-        snprintf(text, sizeof text, "%s", waits_for);
-    } else if (!viewer_fit_is_cancelling(p->v)) {
-        snprintf(text, sizeof text, "Fitting … %.0f s", floor(viewer_fit_seconds(p->v)));
-    }
-    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), text);
+    const char *held_up = viewer_held_up(p->v, SLOT_FIT, viewer_fit_is_cancelling(p->v));
+    char text[64];
+    snprintf(text, sizeof text, "Fitting … %.0f s", floor(viewer_fit_seconds(p->v)));
+    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), held_up != NULL ? held_up : text);
 }
 
 static gboolean on_tick(gpointer user) {

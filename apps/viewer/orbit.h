@@ -32,8 +32,6 @@ void viewer_orbit_cancel(viewer *v);
 /* Or about to run: missions are being read. */
 bool viewer_orbit_is_running(const viewer *v);
 bool viewer_orbit_is_cancelling(const viewer *v);
-/* What the missions wait for before they run, in words; NULL: nothing. */
-const char *viewer_orbit_waits_for(const viewer *v);
 /* Share of the run that is done. */
 double viewer_orbit_progress(viewer *v);
 

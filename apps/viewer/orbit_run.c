@@ -77,11 +77,6 @@ bool viewer_orbit_is_cancelling(const viewer *v) {
            viewer_worker_is_cancelling(v->requests.tables, SLOT_VERSUS);
 }
 
-const char *viewer_orbit_waits_for(const viewer *v) {
-    return viewer_worker_is_busy(v->requests.batch, SLOT_ORBIT) ? viewer_waits_for(v, SLOT_ORBIT)
-                                                                : NULL;
-}
-
 /* ---- the choice ---- */
 
 typedef struct read_job {

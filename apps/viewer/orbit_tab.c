@@ -149,14 +149,10 @@ static void draw(GtkDrawingArea *area, cairo_t *cr, int width, int height, gpoin
 
 static void show_progress(pane *p) {
     double done = viewer_orbit_progress(p->v);
-    const char *waits_for = viewer_orbit_waits_for(p->v);
-    char text[64] = "Cancelling …";
-    if (!viewer_orbit_is_cancelling(p->v) && waits_for != NULL) {
-        snprintf(text, sizeof text, "%s", waits_for);
-    } else if (!viewer_orbit_is_cancelling(p->v)) {
-        snprintf(text, sizeof text, "%.0f %%", floor(100.0 * done));
-    }
-    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), text);
+    const char *held_up = viewer_held_up(p->v, SLOT_ORBIT, viewer_orbit_is_cancelling(p->v));
+    char text[32];
+    snprintf(text, sizeof text, "%.0f %%", floor(100.0 * done));
+    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), held_up != NULL ? held_up : text);
     gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(p->progress), done);
 }
 

@@ -61,13 +61,15 @@ void viewer_cancel(viewer *v, viewer_worker *worker, unsigned slot, const char *
     viewer_tell(v, CHANGED_BUSY);
 }
 
-const char *viewer_waits_for(const viewer *v, unsigned slot) {
+const char *viewer_held_up(const viewer *v, unsigned slot, bool cancelling) {
     static const char *const words[] = {[SLOT_TABLE] = "Waiting for the table …",
                                         [SLOT_ORBIT] = "Waiting for the mission …",
                                         [SLOT_FIT] = "Waiting for the fit …",
                                         [SLOT_PROBE] = "Waiting for the measurement …"};
     int running = viewer_worker_running(v->requests.batch);
-    return running < 0 || running == (int)slot ? NULL : words[running];
+    bool waits =
+        running >= 0 && running != (int)slot && viewer_worker_is_busy(v->requests.batch, slot);
+    return cancelling ? "Cancelling …" : waits ? words[running] : NULL;
 }
 
 /* ---- engine ---- */

@@ -60,8 +60,9 @@ bool viewer_requests_busy(const viewer *v);
 /* The user does not want what this slot computes. `said` of what has not begun; what has says it as
  * it is delivered. */
 void viewer_cancel(viewer *v, viewer_worker *worker, unsigned slot, const char *said);
-/* What keeps a job of `batch` from beginning: "Waiting for the fit …"; NULL: nothing does. */
-const char *viewer_waits_for(const viewer *v, unsigned slot);
+/* What keeps a job of `batch` from going on: "Waiting for the fit …", "Cancelling …"; NULL: nothing
+ * does. */
+const char *viewer_held_up(const viewer *v, unsigned slot, bool cancelling);
 
 /* The setup has changed: a new engine, then the force. `reload` reads files again. */
 void viewer_request_engine(viewer *v, bool reload);

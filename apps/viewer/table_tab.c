@@ -24,8 +24,8 @@ static const char *const FIELD_NAME[CHARTS] = {"f#dx#u [m²]", "f#dy#u [m²]", "
 
 /* ---- progress ---- */
 
-/* Of a table that is being computed. */
-static void show_share(pane *p) {
+static void show_progress(pane *p) {
+    const char *held_up = viewer_held_up(p->v, SLOT_TABLE, viewer_table_is_cancelling(p->v));
     size_t done = atomic_load(&p->v->requests.table.done);
     size_t total = atomic_load(&p->v->requests.table.total);
     double seconds = viewer_seconds() - atomic_load(&p->v->requests.table.began);
@@ -41,17 +41,7 @@ static void show_share(pane *p) {
     } else {
         gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(p->progress), 0.0);
     }
-    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), text);
-}
-
-static void show_progress(pane *p) {
-    const char *waits_for = viewer_waits_for(p->v, SLOT_TABLE);
-    show_share(p);
-    if (viewer_table_is_cancelling(p->v)) {
-        gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), "Cancelling …");
-    } else if (waits_for != NULL) {
-        gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), waits_for);
-    }
+    gtk_progress_bar_set_text(GTK_PROGRESS_BAR(p->progress), held_up != NULL ? held_up : text);
 }
 
 static gboolean on_tick(gpointer user) {
