@@ -35,10 +35,6 @@ void viewer_shape_release(viewer_shape *shape) {
     }
 }
 
-static bool same_text(const char *a, const char *b) {
-    return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
-}
-
 viewer_shape *viewer_shape_read(const viewer_setup *setup, viewer_words *said) {
     viewer_shape *shape = calloc(1, sizeof *shape);
     if (shape == NULL) {
@@ -258,8 +254,9 @@ viewer_engine *viewer_engine_make(const viewer_setup *setup, viewer_shape *known
     atomic_init(&engine->references, 1);
     copy->mass = NAN; /* changes without a new engine; whoever wants it asks the session */
     engine->setup = copy;
-    bool is_known = setup->model != NULL && known != NULL && same_text(known->path, setup->model) &&
-                    same_text(known->unit, setup->model_option[MODEL_UNIT]);
+    bool is_known = setup->model != NULL && known != NULL &&
+                    viewer_text_same(known->path, setup->model) &&
+                    viewer_text_same(known->unit, setup->model_option[MODEL_UNIT]);
     if (setup->model != NULL && (reload || !is_known)) {
         engine->shape = viewer_shape_read(setup, &engine->problem);
     }

@@ -119,30 +119,22 @@ bool viewer_setup_set_model_option(viewer_setup *setup, int option, const char *
 /* The name or the device of the method: together they have to name one that is there. A device that
  * lacks the method gives way. */
 static bool set_which(viewer_setup *setup, int option, const char *text, viewer_words *problem) {
-    char **device = &setup->method_option[METHOD_DEVICE], **changed = &setup->method_option[option];
-    char *device_before = *device, *before = *changed;
+    viewer_setup tried = *setup; /* its texts are those of `setup` */
     const srp_method *method;
     srp_method_params params;
-    *changed = NULL;
-    if (!keep(changed, text)) {
-        *changed = before;
+    tried.method_option[option] = text != NULL && text[0] != '\0' ? (char *)text : NULL;
+    if (viewer_setup_method(&tried) == NULL && option == METHOD_NAME) {
+        tried.method_option[METHOD_DEVICE] = NULL;
+    }
+    if (viewer_setup_method(&tried) == NULL) {
+        (void)viewer_setup_choose(&tried, &method, &params, problem);
         return false;
     }
-    if (viewer_setup_method(setup) == NULL && option == METHOD_NAME) {
-        *device = NULL;
-    }
-    if (viewer_setup_method(setup) == NULL) {
-        (void)viewer_setup_choose(setup, &method, &params, problem);
-        free(*changed);
-        *changed = before;
-        *device = device_before;
+    if (!keep(&setup->method_option[option], text)) {
         return false;
     }
-    if (*device == NULL && option == METHOD_NAME) {
-        free(device_before);
-    }
-    free(before);
-    return true;
+    return tried.method_option[METHOD_DEVICE] != NULL ||
+           keep(&setup->method_option[METHOD_DEVICE], NULL);
 }
 
 bool viewer_setup_set_method_option(viewer_setup *setup, int option, const char *text,
@@ -213,10 +205,6 @@ void viewer_setup_clear_materials(viewer_setup *setup) {
     setup->material_count = 0;
 }
 
-static bool is_same_text(const char *a, const char *b) {
-    return strcmp(a != NULL ? a : "", b != NULL ? b : "") == 0;
-}
-
 bool viewer_setup_is_of_spacecraft(int method_option) {
     return method_option == METHOD_CR || method_option == METHOD_AREA ||
            method_option == METHOD_REFERENCE;
@@ -228,7 +216,7 @@ void viewer_setup_forget_spacecraft(viewer_setup *setup, const viewer_setup *ask
     }
     for (int i = 0; i < METHOD_OPTION_COUNT; ++i) {
         if (viewer_setup_is_of_spacecraft(i) &&
-            is_same_text(setup->method_option[i], asked->method_option[i])) {
+            viewer_text_same(setup->method_option[i], asked->method_option[i])) {
             keep(&setup->method_option[i], NULL);
         }
     }

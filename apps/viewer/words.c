@@ -24,6 +24,10 @@ char *viewer_text_copy(const char *text) {
     return copy;
 }
 
+bool viewer_text_same(const char *a, const char *b) {
+    return a == b || (a != NULL && b != NULL && strcmp(a, b) == 0);
+}
+
 char *viewer_text_end_once(const char *name) {
     char *copy = viewer_text_copy(name);
     const char *dot = copy != NULL ? strrchr(copy, '.') : NULL;

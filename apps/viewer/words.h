@@ -5,6 +5,7 @@
 
 #include <srp/status.h>
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Said where one is needed. */
@@ -12,6 +13,8 @@ extern const char VIEWER_NO_TABLE[], VIEWER_NO_SPACECRAFT[];
 
 /* A copy, freed by free(); NULL for NULL and without memory. */
 char *viewer_text_copy(const char *text);
+/* Are both the same, or none? Either may be NULL. */
+bool viewer_text_same(const char *a, const char *b);
 
 /* A copy of a file's name that ends with the same ending once: "a.nc" for "a.nc.nc", which is typed
  * over the part that a dialog selects. */
