@@ -7,11 +7,16 @@ start_display
 "$SRP" table "$ROOT/models/cube.obj" --step 30 --mass 12.5 -o "$scratch/small.nc" -o "$scratch/small.txt" > "$scratch/log" 2>&1 ||
     fail 'srp table'
 
+# await NOTE: until the steps that run make this note.
+await() {
+    until grep -q "^$1" "$scratch/out"; do sleep 0.05; done
+}
+
 # view_and_feed STATUS: runs the steps; when they note that the window hears, the pipe gets its table.
 view_and_feed() {
     : > "$scratch/out"
     (
-        until grep -q '^hears' "$scratch/out"; do sleep 0.05; done
+        await hears
         cat "$scratch/small.txt" > "$scratch/slow.txt"
     ) &
     local writer=$!
@@ -149,7 +154,7 @@ END
 : > "$scratch/out"
 (
     for note in first second; do
-        until grep -q "^$note" "$scratch/out"; do sleep 0.05; done
+        await "$note"
         cat "$ROOT/models/cube.obj" > "$scratch/slow.obj"
     done
 ) &
@@ -328,9 +333,9 @@ print message
 END
 : > "$scratch/out"
 (
-    until grep -q '^good' "$scratch/out"; do sleep 0.05; done
+    await good
     printf 'v 1 2 3\nv 1 2 x\n' > "$scratch/mended.obj"
-    until grep -q '^broken' "$scratch/out"; do sleep 0.05; done
+    await broken
     cp "$ROOT/models/dish.obj" "$scratch/mended.obj"
 ) &
 writer=$!
@@ -397,9 +402,9 @@ print f-x
 END
 : > "$scratch/out"
 (
-    until grep -q '^good' "$scratch/out"; do sleep 0.05; done
+    await good
     rm "$scratch/gone.obj"
-    until grep -q '^gone' "$scratch/out"; do sleep 0.05; done
+    await gone
     cp "$ROOT/models/box-wing.obj" "$scratch/gone.obj"
 ) &
 writer=$!
